@@ -16,8 +16,9 @@ namespace hindsight {
 /// biases and the sigma of rates. The prior is normal in the logarithm of each:
 ///   scale        1, a factor of 2 (a sigma that a receiver states is right to
 ///                about that); sought within 0.1 to 100
-///   IMU          1, a factor of 3, never below 1 (stated is the noise of an IMU
-///                at rest; vibration adds to it)
+///   IMU          1, a factor of 3 (stated is the noise of an IMU at rest, to
+///                which vibration adds, or that of the vibration, which integrates
+///                to less); sought within 0.01 to 100
 ///   outliers     2 % of 10 times the sigma, a factor of 4.5 each
 ///   slight bias  as `from` says, a factor of 2.7
 ///   the rest     as `from` says, a factor of 10

@@ -152,7 +152,7 @@ std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p) {
       "{} errors, sigma {:.3g} times as stated, outliers {:.3g} % of {:.3g} "
       "times that",
       RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio);
-  if (p.imu_scale > 1.0 + kWorthTelling) {
+  if (std::abs(p.imu_scale - 1.0) > kWorthTelling) {
     all += fmt::format(", beside noise of the IMU {:.3g} times as stated",
                        p.imu_scale);
   }

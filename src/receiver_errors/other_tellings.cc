@@ -146,7 +146,7 @@ Attempt BestDriftThatEnds(const RegimeProblem& problem,
     });
     ErrorParameters p = jumping.parameters;
     p.rate_sigma = size / (static_cast<double>(drifts) * dt);
-    p.imu_scale = 1.0;
+    p.imu_scale = std::min(1.0, p.imu_scale);
     problem.effort->Spend(problem.tape.size());
     const double log_posterior = LogPosterior(problem, p, one);
     if (best.sequence.empty() || log_posterior > best.log_posterior) {

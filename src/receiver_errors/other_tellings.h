@@ -20,7 +20,7 @@ Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
                                const Hypothesis& noise);
 
 /// The likeliest of DriftsThatEnd, each by the rate that leads to errors as large
-/// as the hypothesis's own and with the noise of the IMU as stated; without a
+/// as the hypothesis's own and with no more noise of the IMU than stated; without a
 /// sequence if there is none.
 Attempt BestDriftThatEnds(const RegimeProblem& problem,
                           const Hypothesis& jumping);

@@ -35,7 +35,7 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
     p.slight_sigma = kSlight * problem.stated_sigma;
     p.tau = tau;
     p.rate_sigma = p.sigma / kRateTime;
-    p.imu_scale = 1.0;
+    p.imu_scale = std::min(1.0, white.imu_scale);
     p.outlier_share = typical.outlier_share;
     p.outlier_ratio = typical.outlier_ratio;
   }

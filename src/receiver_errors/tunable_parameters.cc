@@ -14,7 +14,7 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
       {&ErrorParameters::outlier_share, 1e-3, 0.4, 0.02, 1.5,
        "the share of outliers", "1"},
       {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5},
-      {&ErrorParameters::imu_scale, 1.0, 100.0, 1.0, 1.1,
+      {&ErrorParameters::imu_scale, kLeastImuScale, 100.0, 1.0, 1.1,
        "the factor on the noise of the IMU", "1"}};
   bool biased = false;
   bool slight = false;

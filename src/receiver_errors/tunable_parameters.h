@@ -26,6 +26,9 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
 
 /// The least factor on the stated sigma that is sought.
 inline constexpr double kLeastScale = 0.1;
+/// The least factor on the stated noise of the IMU: a vibration is often stated as white
+/// noise of its amplitude, of which what is integrated keeps next to nothing.
+inline constexpr double kLeastImuScale = 0.01;
 
 /// ln of the prior of all, but for constants.
 double LogPriorOf(const std::vector<Tunable>& tunables,

@@ -93,7 +93,7 @@ Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
             const ErrorParameters& at, double ErrorParameters::*member,
             double least, double spread) {
   constexpr double kStep = 0.03;
-  constexpr double kRange = 6.0;
+  constexpr double kRange = 10.0;
   Grid grid;
   double largest = -1e300;
   double posterior = 0.0;
@@ -124,7 +124,7 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   const LinearTape tape = TapeOf(noisy.problem);
   const ModeSequence good(noisy.errors.size());
   ErrorParameters p = TuneParameters({tape, 0}, good, {});
-  ASSERT_EQ(p.imu_scale, 1.0);
+  ASSERT_EQ(p.imu_scale, kLeastImuScale);
   double sum = 0.0;
   for (int round = 0; round < 2; ++round) {
     sum = 0.0;
@@ -137,7 +137,7 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
     settle(&ErrorParameters::scale, 0.1, 0.7);
     settle(&ErrorParameters::outlier_share, 1e-3, 1.5);
     settle(&ErrorParameters::outlier_ratio, 3.0, 1.5);
-    settle(&ErrorParameters::imu_scale, 1.0, 1.1);
+    settle(&ErrorParameters::imu_scale, kLeastImuScale, 1.1);
   }
   EXPECT_NEAR(LogShareOfPrior({tape, 0}, good, p, {}), sum, 4 * 0.2);
   EXPECT_LT(sum, -6.0);

@@ -117,6 +117,43 @@ TEST(ReceiverErrors, OfABiasedStretchBecomeStates) {
   EXPECT_NEAR(states[30].parameters(e.parameter_offset), 30.0, 3.0);
 }
 
+/// A jump of ten sigmas of a fix behind a gap of three seconds, over which the IMU as
+/// stated drifts by a metre: what it states is the amplitude of a vibration, which
+/// integrates to nothing.
+TEST(ReceiverErrors, ShowBesideAnImuThatIsBetterThanStated) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.noise.accel_noise_density = 0.3;
+  options.noise.gyro_noise_density = 8e-3;
+  options.layout = TypicalLayout(options.noise);
+  options.duration = 40.0;
+  options.spacing = 0.5;
+  options.position_sigma = 0.1;
+  options.velocity_sigma = 0.0;
+  TestProblem test = MakeProblem(options, 3);
+  Random random(11);
+  GateDecisions used;
+  for (Measurement& z : test.measurements) {
+    auto& fix = std::get<PositionFix>(z.model);
+    Eigen::Vector3d e_n = 0.1 * random.NormalVector3();
+    if (z.t > 13.0 && z.t < 27.0) e_n += Eigen::Vector3d(1.0, 1.0, 0.0);
+    fix.p_e += NedAxes(fix.p_e) * e_n;
+    const bool gap = (z.t > 11.2 && z.t < 14.2) || (z.t > 25.2 && z.t < 28.2);
+    used.push_back(static_cast<char>(!gap));
+  }
+  Problem problem = test.Pose(used);
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors errors = FindThem(problem, tape);
+  ASSERT_TRUE(errors.Stands());
+  const CovarianceSeries P(tape.dim(), tape.size());
+  EXPECT_THAT(errors.Notes(P)[0], HasSubstr("beside noise of the IMU 0.0"));
+  errors.Extend(&problem);
+  const std::vector<State> states = errors.States(problem.layout);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 0.5) << k;
+  }
+}
+
 /// Two bad ones of a second's five are in no average of a second, but they are in
 /// the problem that is solved.
 TEST(ReceiverErrors, OfFastFixesMayBeOutliersAlone) {
