@@ -147,12 +147,13 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
 }
 
 std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p) {
-  constexpr double kWorthTelling = 0.05;
+  constexpr double kWorse = 1.05;
+  constexpr double kBetter = 0.5;  // 1.3 may be chance: it is found to that
   std::string all = fmt::format(
       "{} errors, sigma {:.3g} times as stated, outliers {:.3g} % of {:.3g} "
       "times that",
       RegimeName(kind), p.scale, 100.0 * p.outlier_share, p.outlier_ratio);
-  if (std::abs(p.imu_scale - 1.0) > kWorthTelling) {
+  if (p.imu_scale > kWorse || p.imu_scale < kBetter) {
     all += fmt::format(", beside noise of the IMU {:.3g} times as stated",
                        p.imu_scale);
   }
