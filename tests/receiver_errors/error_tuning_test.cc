@@ -91,14 +91,13 @@ struct Grid {
 
 Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
             const ErrorParameters& at, double ErrorParameters::*member,
-            double least, double spread) {
+            double least, double spread, double range = 6.0) {
   constexpr double kStep = 0.03;
-  constexpr double kRange = 10.0;
   Grid grid;
   double largest = -1e300;
   double posterior = 0.0;
   double prior = 0.0;
-  for (double x = 0.0; x < kRange; x += kStep) {
+  for (double x = 0.0; x < range; x += kStep) {
     ErrorParameters p = at;
     p.*member = least * std::exp(x);
     const double value = ScoreSequence({tape, 0}, p, sequence).log_likelihood +
@@ -129,15 +128,15 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   for (int round = 0; round < 2; ++round) {
     sum = 0.0;
     const auto settle = [&](double ErrorParameters::*member, double least,
-                            double spread) {
-      const Grid grid = OnGrid(tape, good, p, member, least, spread);
+                            double spread, double range = 6.0) {
+      const Grid grid = OnGrid(tape, good, p, member, least, spread, range);
       p.*member = grid.likeliest;
       sum += grid.log_share;
     };
     settle(&ErrorParameters::scale, 0.1, 0.7);
     settle(&ErrorParameters::outlier_share, 1e-3, 1.5);
     settle(&ErrorParameters::outlier_ratio, 3.0, 1.5);
-    settle(&ErrorParameters::imu_scale, kLeastImuScale, 1.1);
+    settle(&ErrorParameters::imu_scale, kLeastImuScale, 1.1, 9.0);
   }
   EXPECT_NEAR(LogShareOfPrior({tape, 0}, good, p, {}), sum, 4 * 0.2);
   EXPECT_LT(sum, -6.0);
