@@ -91,7 +91,7 @@ struct Grid {
 
 Grid OnGrid(const LinearTape& tape, const ModeSequence& sequence,
             const ErrorParameters& at, double ErrorParameters::*member,
-            double least, double spread, double range = 6.0) {
+            double least, double spread, double range) {
   constexpr double kStep = 0.03;
   Grid grid;
   double largest = -1e300;
