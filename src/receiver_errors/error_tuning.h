@@ -64,8 +64,8 @@ double MostOfLogShare(const ModeSequence& sequence,
                       double least_scale = kLeastScale);
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
-/// mean something: a share of outliers may be as small as it likes, the IMU as
-/// good as stated, a bias last for ever, and a stated sigma that is a tolerance have any
+/// mean something: a share of outliers may be as small as it likes, and the noise of
+/// the IMU, a bias last for ever, and a stated sigma that is a tolerance have any
 /// factor.
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
                                             const ErrorParameters& found,

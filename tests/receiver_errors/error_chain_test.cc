@@ -77,6 +77,11 @@ ErrorMatrix ScaledNoise(const LinearTape& tape, std::size_t k, double scale) {
   return scales.asDiagonal() * tape.Q(k) * scales.asDiagonal();
 }
 
+Gaussian RandomOf(int dim) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(dim, dim);
+  return {A.col(0), A * A.transpose()};
+}
+
 /// Of each mode, with an IMU worse than stated, over random covariances.
 TEST(ErrorChain, PredictsAsItsTransitionSays) {
   const LinearTape tape = TapeOf(WithVelocities(5.0));
@@ -92,8 +97,7 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
          {kStayGood, kStepVelocity, ErrorStep{ErrorMode::kBiased},
           ErrorStep{ErrorMode::kDrifting, true},
           ErrorStep{ErrorMode::kDrifting}}) {
-      const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
-      const Gaussian before{A.col(0), A * A.transpose()};
+      const Gaussian before = RandomOf(n);
       Gaussian after = before;
       chain.PredictNavigation(&after);
       chain.PredictError(step, &after);
@@ -156,9 +160,7 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
        {ErrorMode::kGood, ErrorMode::kSlight, ErrorMode::kDrifting}) {
     for (std::size_t k = 1; k < seen.size(); ++k) {
       chain.MoveTo(k);
-      const int n = chain.DimOf(mode);
-      const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
-      Gaussian own{A.col(0), A * A.transpose()};
+      Gaussian own = RandomOf(chain.DimOf(mode));
       Gaussian all = ErrorChain::Resized(own, chain.dim());
       ASSERT_TRUE(chain.has_fix());
       for (const ErrorStep step :
