@@ -23,6 +23,7 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
                                     const ErrorParameters& white) {
   constexpr double kRateTime = 100.0;
   constexpr double kSlight = 3.0;
+  constexpr double kQuieter = 0.25;
   const ErrorParameters typical;
   std::vector<ErrorParameters> starts;
   for (const auto& [size, tau] : {std::pair{5.0, 1e8},
@@ -44,6 +45,12 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
   std::ranges::stable_sort(starts, {}, [size](const ErrorParameters& p) {
     return std::abs(std::log(p.sigma / size));
   });
+  // Of an IMU that is better than stated a jump takes part of what it is better by.
+  if (white.imu_scale < 1.0) {
+    ErrorParameters quiet = starts.front();
+    quiet.imu_scale *= kQuieter;
+    starts.insert(starts.begin() + 1, quiet);
+  }
   return starts;
 }
 
