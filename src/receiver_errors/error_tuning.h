@@ -18,7 +18,8 @@ namespace hindsight {
 ///                about that); sought within 0.1 to 100
 ///   IMU          1, a factor of 3 (stated is the noise of an IMU at rest, to
 ///                which vibration adds, or that of the vibration, which integrates
-///                to less); sought within 0.01 to 100
+///                to less); sought within 0.01 to 100, from 1 on where the
+///                sensor errs throughout
 ///   outliers     2 % of 10 times the sigma, a factor of 4.5 each
 ///   slight bias  as `from` says, a factor of 2.7
 ///   the rest     as `from` says, a factor of 10

@@ -16,14 +16,19 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
       {&ErrorParameters::outlier_ratio, 3.0, 1000.0, 10.0, 1.5},
       {&ErrorParameters::imu_scale, kLeastImuScale, 100.0, 1.0, 1.1,
        "the factor on the noise of the IMU", "1"}};
+  bool good = false;
   bool biased = false;
   bool slight = false;
   bool drifting = false;
   for (const ErrorStep& step : sequence) {
+    good |= step.mode == ErrorMode::kGood;
     biased |= step.mode == ErrorMode::kBiased;
     slight |= step.mode == ErrorMode::kSlight;
     drifting |= step.mode == ErrorMode::kDrifting || step.velocity_step;
   }
+  // What is slow is the IMU's or the receiver's: where it errs throughout nothing but
+  // the stated noise tells.
+  if (!good) out.back().least = 1.0;
   if (biased) {
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
     out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,

@@ -142,6 +142,18 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   EXPECT_LT(sum, -6.0);
 }
 
+/// Beside exact readings; nothing but the stated noise tells what is slow from what the
+/// receiver is off by.
+TEST(TuneParameters, LeaveAnImuAsStatedWhereASensorErrsThroughout) {
+  const NoisyFixes noisy = MakeNoisyFixes();
+  const LinearTape tape = TapeOf(noisy.problem);
+  ModeSequence biased(noisy.errors.size(), {ErrorMode::kBiased});
+  biased.front().anew = true;
+  EXPECT_EQ(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
+  biased.back() = {ErrorMode::kGood};
+  EXPECT_LT(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
+}
+
 /// Also of data that say nothing, in which the priors are all that is integrated.
 TEST(LogShareOfPrior, IsNotAboveItsMost) {
   const NoisyFixes noisy = MakeNoisyFixes();
