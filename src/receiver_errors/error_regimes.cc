@@ -29,16 +29,23 @@ double MeanScale(const ErrorParameters& p) {
   return p.scale * std::sqrt(1.0 + p.outlier_share * (ratio - 1.0));
 }
 
-/// Fits the parameters to a sequence, and refines it by them.
+/// Fits the parameters to the first of some hypotheses, and refines all by them.
 ErrorRegimes FitSwitching(const RegimeProblem& problem,
-                          const ModeSequence& sequence,
+                          const std::vector<Hypothesis>& found,
                           const ErrorParameters& from) {
   ErrorRegimes out;
   out.kind = ErrorRegimes::Kind::kSwitching;
-  out.hypotheses = RefineHypotheses(problem.tape, Tune(problem, sequence, from),
-                                    {{sequence}}, problem.effort);
+  out.hypotheses = RefineHypotheses(problem.tape,
+                                    Tune(problem, found.front().sequence, from),
+                                    found, problem.effort);
   out.log_evidence = LogEvidenceOf(problem, out.hypotheses.front(), from);
   return out;
+}
+
+ErrorRegimes FitSwitching(const RegimeProblem& problem,
+                          const ModeSequence& sequence,
+                          const ErrorParameters& from) {
+  return FitSwitching(problem, std::vector<Hypothesis>{{sequence}}, from);
 }
 
 /// Climbs from an attempt; `all` may be nearer to the end of the climb than
@@ -122,13 +129,15 @@ std::optional<ErrorRegimes> FitOtherOutliers(
 }
 
 /// From what is likeliest of all that other searches have met, which is fitted about this
-/// trajectory by a third of the effort. None if the search was stopped.
+/// trajectory by a third of the effort, and from what was about as likely there: effort
+/// for finding that anew there may not be. None if the search was stopped.
 std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
   constexpr double kShare = 1.0 / 3.0;
   if (problem.effort->stopped()) return std::nullopt;
-  const Hypothesis* likeliest = nullptr;
+  const MetHypotheses* likeliest = nullptr;
   double most = -std::numeric_limits<double>::infinity();
-  for (const Hypothesis& one : problem.met) {
+  for (const MetHypotheses& fit : problem.met) {
+    const Hypothesis& one = fit.front();
     if (one.sequence.size() != problem.tape.fix_count()) continue;
     const double log_posterior =
         ScoreSequence(problem.tape, one.parameters, one.sequence)
@@ -136,7 +145,7 @@ std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
     problem.effort->Spend(problem.tape.size());
     if (log_posterior <= most) continue;
     most = log_posterior;
-    likeliest = &one;
+    likeliest = &fit;
   }
   if (likeliest == nullptr) return std::nullopt;
   SearchEffort part(kShare * problem.effort->left(), [&problem](double) {
@@ -146,7 +155,7 @@ std::optional<ErrorRegimes> FitMet(const RegimeProblem& problem) {
   RegimeProblem of_part = problem;
   of_part.effort = &part;
   ErrorRegimes fit =
-      FitSwitching(of_part, likeliest->sequence, likeliest->parameters);
+      FitSwitching(of_part, *likeliest, likeliest->front().parameters);
   problem.effort->Spend(static_cast<std::size_t>(part.spent()));
   return fit;
 }
@@ -224,6 +233,18 @@ const char* RegimeName(ErrorRegimes::Kind kind) {
   static const char* const kNames[] = {"stated", "white", "Gauss-Markov",
                                        "switching"};
   return kNames[static_cast<int>(kind)];
+}
+
+MetHypotheses LikelyOf(const ErrorRegimes& fit) {
+  constexpr std::size_t kMost = 24;
+  constexpr double kLeastLog = 5.0;
+  const double least = fit.hypotheses.front().log_posterior - kLeastLog;
+  MetHypotheses likely;
+  for (const Hypothesis& one : fit.hypotheses) {
+    if (likely.size() == kMost || one.log_posterior < least) break;
+    likely.push_back(one);
+  }
+  return likely;
 }
 
 std::vector<ErrorRegimes> FitRegimes(const RegimeProblem& problem) {

@@ -27,6 +27,11 @@ struct ErrorRegimes {
   double log_evidence = 0.0;
 };
 
+/// Of one fit: the likeliest, and others about as likely, which nothing may ever tell from
+/// it.
+using MetHypotheses = std::vector<Hypothesis>;
+MetHypotheses LikelyOf(const ErrorRegimes& fit);
+
 /// "stated", "white", "gauss_markov", "switching".
 const char* RegimeName(ErrorRegimes::Kind kind);
 
@@ -46,7 +51,7 @@ struct RegimeProblem {
   /// errors look like some with such.
   bool has_clock = false;
   /// What searches about other tapes have met of it.
-  std::vector<Hypothesis> met = {};
+  std::vector<MetHypotheses> met = {};
 };
 
 /// Every kind as fitted to the data, the simplest first; of kSwitching several,

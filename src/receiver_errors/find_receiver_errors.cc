@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -56,14 +55,18 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
 
 /// What was met of a sensor, but for what needs steps of the IMU's velocity, which explain
 /// whatever the trajectory about which they were found had wrong.
-std::vector<Hypothesis> MetOf(int sensor, const DecidedErrors& met) {
-  std::vector<Hypothesis> all;
+std::vector<MetHypotheses> MetOf(int sensor, const DecidedErrors& met) {
+  const auto has_steps = [](const Hypothesis& h) {
+    return CountVelocitySteps(h.sequence) > 0;
+  };
+  std::vector<MetHypotheses> all;
   for (const auto& one : met) {
     if (one->sensor != sensor) continue;
-    std::ranges::copy_if(one->met, std::back_inserter(all),
-                         [](const Hypothesis& h) {
-                           return CountVelocitySteps(h.sequence) == 0;
-                         });
+    for (MetHypotheses fit : one->met) {
+      if (has_steps(fit.front())) continue;
+      std::erase_if(fit, has_steps);
+      all.push_back(std::move(fit));
+    }
   }
   return all;
 }

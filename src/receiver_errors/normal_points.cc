@@ -276,7 +276,7 @@ std::optional<LinearTape> ThinBetweenFixes(const LinearTape& tape, int sensor,
                                            double interval) {
   const std::vector<Interval> intervals =
       IntervalsAboutFixes(tape, sensor, interval);
-  if (2 * intervals.size() > tape.size()) return std::nullopt;
+  if (3 * intervals.size() > 2 * tape.size()) return std::nullopt;
   return Thin(tape, sensor, intervals);
 }
 

@@ -46,7 +46,7 @@ std::optional<NormalPoints> FormNormalPoints(
 /// All fixes of the sensor, each at its node, to which what others measured is carried
 /// as NormalPoints are, from nodes that are nearest to it and half an `interval` away
 /// at the most; where there are no fixes, a node an interval. None where that would be
-/// more than half of the nodes.
+/// more than two thirds of the nodes.
 std::optional<LinearTape> ThinBetweenFixes(
     const LinearTape& tape, int sensor, double interval = kNormalPointInterval);
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/gap.h"
 #include "receiver_errors/sensor_tape.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "receiver_errors/sequence_variations.h"
@@ -36,7 +35,6 @@ double SizeOf(const RegimeProblem& problem, const Hypothesis& one) {
 
 /// A fix as noise has it.
 struct JudgedFix {
-  double t = 0.0;
   double off = 0.0;  ///< root mean square of what is left of it, an axis
   bool outlier = false;
 };
@@ -57,7 +55,7 @@ std::vector<JudgedFix> JudgeFixes(const RegimeProblem& problem,
       const Eigen::VectorXd sigmas = left.cwiseAbs().cwiseQuotient(
           z.R.diagonal().cwiseSqrt() * noise.parameters.scale);
       fixes.push_back(
-          {tape.t(k), left.norm() / std::sqrt(static_cast<double>(left.size())),
+          {left.norm() / std::sqrt(static_cast<double>(left.size())),
            sigmas.maxCoeff() > kOutlier});
       break;
     }
@@ -65,20 +63,13 @@ std::vector<JudgedFix> JudgeFixes(const RegimeProblem& problem,
   return fixes;
 }
 
-/// Of fixes by time the first ones behind gaps, the first of all included, and past the
+/// Of so many fixes the first ones behind gaps, the first of all included, and past the
 /// last.
-std::vector<std::size_t> BeginsOfStretches(
-    const std::vector<JudgedFix>& fixes) {
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < fixes.size(); ++i) {
-    spacings.push_back(fixes[i].t - fixes[i - 1].t);
-  }
-  const double longest = LongestSpacingWithoutGap(spacings);
-  std::vector<std::size_t> begins = {0};
-  for (std::size_t i = 0; i < spacings.size(); ++i) {
-    if (spacings[i] > longest) begins.push_back(i + 1);
-  }
-  begins.push_back(fixes.size());
+std::vector<std::size_t> BeginsOfStretches(const SensorTape& tape,
+                                           std::size_t fixes) {
+  std::vector<std::size_t> begins = FixesBehindGaps(tape);
+  begins.insert(begins.begin(), 0);
+  begins.push_back(fixes);
   return begins;
 }
 
@@ -108,7 +99,8 @@ Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
   Attempt best;
   const std::vector<JudgedFix> fixes = JudgeFixes(problem, noise);
   if (fixes.size() < 2 || fixes.size() != noise.sequence.size()) return best;
-  const std::vector<std::size_t> begins = BeginsOfStretches(fixes);
+  const std::vector<std::size_t> begins =
+      BeginsOfStretches(problem.tape, fixes.size());
   for (std::size_t s = 0; s + 1 < begins.size(); ++s) {
     const std::size_t begin = begins[s];
     const std::size_t past = begins[s + 1];

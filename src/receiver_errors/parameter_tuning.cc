@@ -34,6 +34,7 @@ ErrorParameters ParameterTuning::Climb() {
 ErrorParameters ParameterTuning::ClimbOfNoise(double least_scale) {
   constexpr double kStep = 1.3;
   tunables_.front().least = least_scale;
+  parameters_ = Bounded(tunables_, parameters_);
   value_ = Value(parameters_);
   for (std::size_t i = 0; i < 3; ++i) {
     if (!Walk(tunables_[i], kStep)) Walk(tunables_[i], 1.0 / kStep);
@@ -44,8 +45,8 @@ ErrorParameters ParameterTuning::ClimbOfNoise(double least_scale) {
 void ParameterTuning::ClimbAlone(double ErrorParameters::*member,
                                  const ErrorParameters& p) {
   constexpr double kStep = 1.3;
-  parameters_ = p;
-  value_ = Value(p);
+  parameters_ = Bounded(tunables_, p);
+  value_ = Value(parameters_);
   const Tunable& one = TunableOf(member);
   if (!Walk(one, kStep)) Walk(one, 1.0 / kStep);
 }

@@ -20,7 +20,7 @@ class ParameterTuning {
       : tape_(tape),
         sequence_(sequence),
         tunables_(TunablesOf(sequence, from)),
-        parameters_(from),
+        parameters_(Bounded(tunables_, from)),
         effort_(effort) {}
 
   /// Multiplies each parameter by smaller and smaller steps while it gains.

@@ -48,7 +48,7 @@ std::vector<ErrorParameters> Starts(const RegimeProblem& problem,
   // Of an IMU that is better than stated a jump takes part of what it is better by.
   if (white.imu_scale < 1.0) {
     ErrorParameters quiet = starts.front();
-    quiet.imu_scale *= kQuieter;
+    quiet.imu_scale = std::max(kLeastImuScale, kQuieter * quiet.imu_scale);
     starts.insert(starts.begin() + 1, quiet);
   }
   return starts;

@@ -25,12 +25,17 @@ double CostOfStep(const SensorTape& tape) {
   return std::max(1.0, states * states / (kUsual * kUsual));
 }
 
-/// Filter steps of a search; of long tapes so many a node.
+/// Filter steps of a search; of long tapes so many a node. Of short ones it is mostly done
+/// with less; of those of ten minutes what is left out between is what else their errors
+/// may be.
 double MostEffort(const SensorTape& tape) {
   constexpr double kAtLeast = 2.4e6;
   constexpr double kPerNode = 400.0;
-  return std::max(kAtLeast, kPerNode * static_cast<double>(tape.size())) /
-         CostOfStep(tape);
+  constexpr double kOfShort = 3.2e6;
+  constexpr double kShort = 1200.0;  // nodes
+  const auto nodes = static_cast<double>(tape.size());
+  const double of_short = kOfShort * std::min(1.0, kShort / nodes);
+  return std::max({kAtLeast, of_short, kPerNode * nodes}) / CostOfStep(tape);
 }
 
 /// As MostEffort, of the refinement at all fixes.
@@ -61,7 +66,7 @@ double LogPriorOfFit(const RegimeProblem& problem, const ErrorRegimes& fit) {
 
 SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                                int index, const SearchLimits& limits,
-                               std::vector<Hypothesis> before)
+                               std::vector<MetHypotheses> before)
     : ErrorDecisions(problem, linear, index), tape(linear) {
   constexpr double kSearch = 0.8;  // of the time, the rest refines
   SearchTapes tapes(tape, sensor, IntervalOf(problem, linear, index));
@@ -85,7 +90,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
       effort.stopped() && all.back().kind != ErrorRegimes::Kind::kSwitching;
   for (const ErrorRegimes& one : all) {
     if (one.kind == ErrorRegimes::Kind::kSwitching) {
-      met.push_back(one.hypotheses.front());
+      met.push_back(LikelyOf(one));
     }
   }
   searched_fixes = all.front().hypotheses.front().sequence.size();

@@ -53,9 +53,9 @@ struct ErrorDecisions {
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
   ErrorRegimes regimes;  ///< if they stand
-  /// The likeliest of each fit of switching errors, whether they stand or not, by fix or
-  /// normal point as they were searched.
-  std::vector<Hypothesis> met;
+  /// Of each fit of switching errors, whether they stand or not, by fix or normal point as
+  /// they were searched.
+  std::vector<MetHypotheses> met;
   bool stopped = false;   ///< the search, by whoever asked
   bool unfitted = false;  ///< it was, before any parameters were fitted
 };
@@ -64,7 +64,7 @@ struct ErrorDecisions {
 struct SensorFindings : ErrorDecisions {
   SensorFindings(const Problem& problem, const LinearTape& linear, int index,
                  const SearchLimits& limits,
-                 std::vector<Hypothesis> before = {});
+                 std::vector<MetHypotheses> before = {});
   /// Decided before, about another tape.
   SensorFindings(const ErrorDecisions& decisions, const LinearTape& linear);
   const WeighedHypothesis& chosen() const { return alternatives[central]; }

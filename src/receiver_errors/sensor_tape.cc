@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/gap.h"
+
 namespace hindsight {
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
@@ -70,6 +72,23 @@ bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {
       tape.measurements(k), [sensor](const TapeMeasurement& z) {
         return z.sensor == sensor && z.accepted && !z.withheld;
       });
+}
+
+std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    if (tape.HasFix(k)) times.push_back(tape.t(k));
+  }
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    spacings.push_back(times[i] - times[i - 1]);
+  }
+  const double longest = LongestSpacingWithoutGap(spacings);
+  std::vector<std::size_t> behind;
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    if (spacings[i] > longest) behind.push_back(i + 1);
+  }
+  return behind;
 }
 
 int RowsOf(const LinearTape& tape, int sensor) {

@@ -62,6 +62,9 @@ class SensorTape {
 
 /// Whether the node has a fix of the sensor that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
+/// The fixes, counted from 0, before which there are none for longer than
+/// LongestSpacingWithoutGap, in order.
+std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);
 /// The most rows that a measurement of the sensor has.
 int RowsOf(const LinearTape& tape, int sensor);
 

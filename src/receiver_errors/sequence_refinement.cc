@@ -47,7 +47,10 @@ class Refinement {
  public:
   Refinement(const SensorTape& tape, const ErrorParameters& parameters,
              SearchEffort* effort)
-      : tape_(tape), parameters_(parameters), effort_(effort) {}
+      : tape_(tape),
+        parameters_(parameters),
+        effort_(effort),
+        behind_gaps_(FixesBehindGaps(tape)) {}
 
   /// Weights that a search gives have those of merged hypotheses in them: each
   /// is scored on its own.
@@ -81,6 +84,21 @@ class Refinement {
   void ClimbOutliers() {
     for (int round = 0; round < kMostRounds && !IsSpent(); ++round) {
       if (!TryOutliers(SpliceBest())) break;
+    }
+  }
+
+  /// Climbs again from what is better. What a fix is taken for hangs on the change, so
+  /// that the likeliest get outliers of their own.
+  void TryHiddenChanges() {
+    constexpr int kMostTimes = 2;
+    for (int i = 0; i < kMostTimes && !IsSpent(); ++i) {
+      const std::size_t before = best_;
+      for (const ModeSequence& one : LikeliestHiddenChanges()) {
+        Try({{hindsight::ClimbOutliers(tape_, parameters_, one, effort_)}},
+            Until::kDone);
+      }
+      if (best_ == before) return;
+      Climb();
     }
   }
 
@@ -164,6 +182,36 @@ class Refinement {
     });
   }
 
+  /// Those of the best are tried with its outliers. The likeliest that are not kept with
+  /// these.
+  std::vector<ModeSequence> LikeliestHiddenChanges() {
+    constexpr std::size_t kMost = 4;
+    constexpr double kReach = 60.0;  // that outliers may gain [ln]
+    const ModeSequence base = SpliceBest();
+    std::vector<SequenceTrial> trials;
+    for (ModeSequence& h : HiddenChanges(base, behind_gaps_)) {
+      trials.push_back({std::move(h)});
+    }
+    const std::vector<TrialScore> scores = ScoresOf(trials, *splice_, tried_);
+    Take(trials, scores, Until::kSpent);
+    const double best = met_[best_].log_posterior;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      if (!scores[i].log_posterior) continue;
+      const double behind = best - *scores[i].log_posterior;
+      if (behind > kLeastPosterior && behind < kReach) order.push_back(i);
+    }
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
+      return *scores[i].log_posterior;
+    });
+    std::vector<ModeSequence> likeliest;
+    for (const std::size_t i : order) {
+      if (likeliest.size() == kMost) break;
+      likeliest.push_back(std::move(trials[i].sequence));
+    }
+    return likeliest;
+  }
+
   ModeSequence SpliceBest() {
     ModeSequence best = met_[best_].sequence;
     Splice(best);
@@ -199,7 +247,11 @@ class Refinement {
 
   void Try(const std::vector<SequenceTrial>& trials, Until until) {
     if (until == Until::kSpent && IsSpent()) return;
-    const std::vector<TrialScore> scores = ScoresOf(trials, *splice_, tried_);
+    Take(trials, ScoresOf(trials, *splice_, tried_), until);
+  }
+
+  void Take(const std::vector<SequenceTrial>& trials,
+            const std::vector<TrialScore>& scores, Until until) {
     for (std::size_t i = 0; i < trials.size(); ++i) {
       if (until == Until::kSpent && IsSpent()) return;
       const auto known = kept_.find(scores[i].hash);
@@ -245,6 +297,7 @@ class Refinement {
   const SensorTape& tape_;
   const ErrorParameters& parameters_;
   SearchEffort* effort_;
+  std::vector<std::size_t> behind_gaps_;  ///< fixes
   std::optional<SequenceSplice> splice_;
   std::vector<Hypothesis> met_;
   std::unordered_set<std::size_t> tried_;              ///< by hash
@@ -280,6 +333,7 @@ std::vector<Hypothesis> RefineHypotheses(const SensorTape& tape,
   Refinement refinement(tape, parameters, effort);
   refinement.Begin(found);
   refinement.Climb();
+  refinement.TryHiddenChanges();
   refinement.TryEarlierErrors();
   return refinement.Result();
 }

@@ -25,7 +25,8 @@ ModeSequence ClimbOutliers(const SensorTape& tape,
                            const ModeSequence& sequence,
                            SearchEffort* effort = nullptr);
 
-/// Climbs, tries ForEachEarlierError of the best, and returns what was met on the way
+/// Climbs, also over HiddenChanges of the best with outliers of their own, tries
+/// ForEachEarlierError of it, and returns what was met on the way
 /// and is within 10 of its logarithm, best first: the posterior of when errors
 /// began and ended. Of those that differ in outliers alone the likeliest.
 std::vector<Hypothesis> RefineHypotheses(const SensorTape& tape,

@@ -1,5 +1,6 @@
 #include "receiver_errors/tunable_parameters.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -45,6 +46,15 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
         {&ErrorParameters::rate_sigma, 1e-6, 1e3, from.rate_sigma, 2.3});
   }
   return out;
+}
+
+ErrorParameters Bounded(const std::vector<Tunable>& tunables,
+                        ErrorParameters p) {
+  for (const Tunable& tunable : tunables) {
+    double& value = p.*tunable.member;
+    value = std::clamp(value, tunable.least, tunable.most);
+  }
+  return p;
 }
 
 double LogPriorOf(const std::vector<Tunable>& tunables,

@@ -30,6 +30,10 @@ inline constexpr double kLeastScale = 0.1;
 /// noise of its amplitude, of which what is integrated keeps next to nothing.
 inline constexpr double kLeastImuScale = 0.01;
 
+/// Each that is beyond a bound at it.
+ErrorParameters Bounded(const std::vector<Tunable>& tunables,
+                        ErrorParameters p);
+
 /// ln of the prior of all, but for constants.
 double LogPriorOf(const std::vector<Tunable>& tunables,
                   const ErrorParameters& p);

@@ -150,6 +150,9 @@ TEST(TuneParameters, LeaveAnImuAsStatedWhereASensorErrsThroughout) {
   ModeSequence biased(noisy.errors.size(), {ErrorMode::kBiased});
   biased.front().anew = true;
   EXPECT_EQ(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
+  ErrorParameters of_white;
+  of_white.imu_scale = 0.1;
+  EXPECT_EQ(TuneParameters({tape, 0}, biased, of_white).imu_scale, 1.0);
   biased.back() = {ErrorMode::kGood};
   EXPECT_LT(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
 }

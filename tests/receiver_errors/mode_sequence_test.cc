@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "filters/rts.h"
 #include "receiver_errors/receiver_tape.h"
@@ -272,6 +275,51 @@ TEST(ModeSequence, AVelocityStepIsTriedInPlaceOfEachError) {
   EXPECT_EQ(std::ranges::count(all, stepped), 1);
 }
 
+ModeSequence Biased(
+    std::size_t size,
+    std::initializer_list<std::pair<std::size_t, std::size_t>> stretches) {
+  ModeSequence h(size);
+  for (const auto& [begin, end] : stretches) {
+    for (std::size_t i = begin; i < end; ++i) {
+      h[i] = {ErrorMode::kBiased, i == begin};
+    }
+  }
+  return h;
+}
+
+TEST(HiddenChanges, EndAnErrorBehindAGapOrBeginItThere) {
+  const std::vector<std::size_t> behind_gaps = {10, 40};
+  const auto holds = [&](const ModeSequence& of, const ModeSequence& one) {
+    return std::ranges::count(HiddenChanges(of, behind_gaps), one) == 1;
+  };
+  const ModeSequence to_the_end = Biased(60, {{20, 60}});
+  EXPECT_TRUE(holds(to_the_end, Biased(60, {{20, 40}})));
+  EXPECT_TRUE(holds(to_the_end, Biased(60, {{10, 20}})));
+  const ModeSequence from_the_begin = Biased(60, {{0, 20}});
+  EXPECT_TRUE(holds(from_the_begin, Biased(60, {{10, 20}})));
+  EXPECT_TRUE(holds(from_the_begin, Biased(60, {{20, 40}})));
+  // Beside another error, which stays or was none.
+  const ModeSequence two = Biased(60, {{0, 20}, {20, 60}});
+  EXPECT_TRUE(holds(two, Biased(60, {{0, 20}, {20, 40}})));
+  EXPECT_TRUE(holds(two, Biased(60, {{20, 40}})));
+  EXPECT_TRUE(holds(two, Biased(60, {{20, 40}, {40, 60}})));
+  EXPECT_TRUE(holds(two, Biased(60, {{10, 20}})));
+  EXPECT_TRUE(HiddenChanges(two, {}).empty());
+  EXPECT_TRUE(HiddenChanges(ModeSequence(60), behind_gaps).empty());
+}
+
+TEST(HiddenChanges, AreBehindTheNearestGaps) {
+  std::vector<std::size_t> behind_gaps;
+  for (std::size_t i = 5; i < 100; i += 5) behind_gaps.push_back(i);
+  const std::vector<ModeSequence> all =
+      HiddenChanges(Biased(100, {{50, 100}}), behind_gaps);
+  EXPECT_EQ(all.size(), 8u);
+  for (const std::size_t gap : {55u, 60u, 65u, 70u}) {
+    EXPECT_EQ(std::ranges::count(all, Biased(100, {{50, gap}})), 1);
+    EXPECT_EQ(std::ranges::count(all, Biased(100, {{100 - gap, 50}})), 1);
+  }
+}
+
 TEST(ModeSequence, AFixThatIsAnOutlierStaysOneInEveryVariation) {
   ModeSequence h(60);
   for (std::size_t i = 25; i < h.size(); ++i) {
@@ -284,6 +332,8 @@ TEST(ModeSequence, AFixThatIsAnOutlierStaysOneInEveryVariation) {
     const std::vector<ModeSequence> others = more(h);
     all.insert(all.end(), others.begin(), others.end());
   }
+  const std::vector<ModeSequence> hidden = HiddenChanges(h, {10, 50});
+  all.insert(all.end(), hidden.begin(), hidden.end());
   ForEachEarlierError(h, [&all](const ModeSequence& one, double) {
     all.push_back(one);
     return true;

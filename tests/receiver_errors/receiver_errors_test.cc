@@ -662,6 +662,23 @@ TEST(ReceiverErrors, MayBeThoseThatAnotherSearchHasMet) {
   EXPECT_NEAR(after.log_gain(), full.log_gain(), 1.0);
 }
 
+TEST(ReceiverErrors, AreWeighedWithWhatAnotherSearchHasMetAsLikely) {
+  const TestProblem test = WithFastDrift();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const SensorFindings full(problem, tape, 0, {});
+  const SensorFindings after(problem, tape, 0, {.share = 1e-6}, full.met);
+  const auto likely_of = [](const SensorFindings& found) {
+    std::vector<ModeSequence> likely;
+    for (const Hypothesis& one : LikelyOf(found.regimes)) {
+      likely.push_back(one.sequence);
+    }
+    return likely;
+  };
+  EXPECT_GT(likely_of(after).size(), 1u);
+  EXPECT_THAT(likely_of(after), ::testing::IsSubsetOf(likely_of(full)));
+}
+
 /// The search sees averages, of which the evidence is another: what one
 /// sensor's errors explain compares with another's on the tape that both have.
 TEST(ReceiverErrors, OfFastFixesExplainWhatAllOfThemSay) {

@@ -57,6 +57,29 @@ TEST_F(Refinement, EndsAsItDoesWithOneThreadWhereverTheEffortDoes) {
   EXPECT_GT(ends.size(), 2u);
 }
 
+/// From what lasts to the end; what the fixes behind the gap are taken for hangs on it.
+TEST(RefineHypotheses, EndAnErrorWhereAGapHidesItsEnd) {
+  TestProblem problem = PositionsOnly(90.0);
+  AddError(20, 45, {8.0, -6.0, 3.0}, &problem);
+  GateDecisions used(problem.measurements.size(), 1);
+  for (std::size_t k = 40; k < 52; ++k) used[k] = 0;
+  const LinearTape tape = TapeOf(problem, std::move(used));
+  const std::size_t behind_gap = 40;
+  EXPECT_EQ(FixesBehindGaps({tape, 0}), std::vector<std::size_t>{behind_gap});
+  ModeSequence right = Good(tape);
+  for (std::size_t i = 20; i < behind_gap; ++i) {
+    right[i] = {ErrorMode::kBiased, i == 20};
+  }
+  ModeSequence lasting = right;
+  for (std::size_t i = behind_gap; i < lasting.size(); ++i) {
+    lasting[i] = {ErrorMode::kBiased, false, false, i % 2 == 0};
+  }
+  ErrorParameters p = WithoutOutliers();
+  p.outlier_share = 0.02;
+  const auto best = RefineHypotheses({tape, 0}, p, {{lasting}}).front();
+  EXPECT_EQ(best.sequence, right);
+}
+
 TEST_F(Refinement, IsAbandonedWhereWhoeverIsAskedThrows) {
   for (const int threads : {1, 3}) {
     SetThreadCount(threads);
