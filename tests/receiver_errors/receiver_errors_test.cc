@@ -663,11 +663,18 @@ TEST(ReceiverErrors, MayBeThoseThatAnotherSearchHasMet) {
 }
 
 TEST(ReceiverErrors, AreWeighedWithWhatAnotherSearchHasMetAsLikely) {
-  const TestProblem test = WithFastDrift();
+  TestProblem test = FixesOfOneMinute();
+  for (Measurement& z : test.measurements) {
+    if (z.t < 20.5 || z.t > 40.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e +=
+        NedAxes(fix.p_e) * Eigen::Vector3d(0.15 * (z.t - 20.0), 0.0, 0.0);
+  }
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
   const SensorFindings full(problem, tape, 0, {});
-  const SensorFindings after(problem, tape, 0, {.share = 1e-6}, full.met);
+  const SensorFindings after(problem, tape, 0,
+                             {.share = 1e-6, .go_on = nullptr}, full.met);
   const auto likely_of = [](const SensorFindings& found) {
     std::vector<ModeSequence> likely;
     for (const Hypothesis& one : LikelyOf(found.regimes)) {
