@@ -91,6 +91,21 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
          .causes = {"vibration, or noise of the IMU that is stated too small"},
          .remedies = {"'check --noise', and the noise that it finds"}});
   }
+  constexpr double kQuiet = 1.0 / kMisstatedImu;
+  if (imu < kQuiet && HasVelocitySteps()) {
+    doubts.push_back(
+        {.grade = Grade::kDoubtful,
+         .what = fmt::format(
+             "beside errors of {}, the velocity of the IMU steps, but its "
+             "noise is {:.2g} times as stated (limit {:.2g})",
+             found_->name, imu, kQuiet),
+         .value = imu,
+         .limit = kQuiet,
+         .unit = "1",
+         .causes = {"errors of a sensor that are taken for those of an IMU "
+                    "which hardly errs otherwise"},
+         .remedies = {"'check --noise', and the noise that it finds"}});
+  }
   return doubts;
 }
 

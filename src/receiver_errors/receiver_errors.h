@@ -114,7 +114,7 @@ class ReceiverErrors {
   /// What makes the result doubtful: the only sensor of positions erring to its
   /// last fix, or from its first, for more than an eighth of the recording; the only
   /// other one off in its place, where they agree nowhere; an IMU whose noise has to be
-  /// taken for much more than stated.
+  /// taken for much more than stated, or for much less while its velocity steps.
   std::vector<Evidence> Doubts() const;
 
   /// What makes the result doubtful beside noise that was chosen: errors that lose to

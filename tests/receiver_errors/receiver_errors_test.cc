@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -643,6 +646,28 @@ TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from"));
   const std::vector<State> states = found.errors.States(found.problem.layout);
   EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
+}
+
+TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {
+  const TestProblem test = WithFastDrift();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions = SensorFindings(problem, tape, 0, {});
+  decisions.regimes.hypotheses.resize(1);
+  Hypothesis& one = decisions.regimes.hypotheses.front();
+  const auto is_doubtful = [&] {
+    const auto doubts = TakeThem(decisions, problem, tape).Doubts();
+    return std::ranges::any_of(doubts, [](const Evidence& doubt) {
+      return doubt.what.find("the velocity of the IMU steps") !=
+             std::string::npos;
+    });
+  };
+  one.parameters.imu_scale = 0.1;
+  EXPECT_FALSE(is_doubtful());
+  one.sequence[45].velocity_step = true;
+  EXPECT_TRUE(is_doubtful());
+  one.parameters.imu_scale = 0.9;
+  EXPECT_FALSE(is_doubtful());
 }
 
 /// A search that has no effort to find a drift begins from what another has met.
