@@ -94,6 +94,7 @@ class Refinement {
     for (int i = 0; i < kMostTimes && !IsSpent(); ++i) {
       const std::size_t before = best_;
       for (const ModeSequence& one : LikeliestHiddenChanges()) {
+        if (IsSpent()) break;
         Try({{hindsight::ClimbOutliers(tape_, parameters_, one, effort_)}},
             Until::kDone);
       }
@@ -194,22 +195,9 @@ class Refinement {
     }
     const std::vector<TrialScore> scores = ScoresOf(trials, *splice_, tried_);
     Take(trials, scores, Until::kSpent);
-    const double best = met_[best_].log_posterior;
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (!scores[i].log_posterior) continue;
-      const double behind = best - *scores[i].log_posterior;
-      if (behind > kLeastPosterior && behind < kReach) order.push_back(i);
-    }
-    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
-      return *scores[i].log_posterior;
-    });
-    std::vector<ModeSequence> likeliest;
-    for (const std::size_t i : order) {
-      if (likeliest.size() == kMost) break;
-      likeliest.push_back(std::move(trials[i].sequence));
-    }
-    return likeliest;
+    return LikeliestBehind(
+        trials, scores, met_[best_].log_posterior,
+        {.nearest = kLeastPosterior, .farthest = kReach, .most = kMost});
   }
 
   ModeSequence SpliceBest() {

@@ -1,5 +1,6 @@
 #include "receiver_errors/sequence_trials.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string_view>
@@ -57,6 +58,27 @@ std::vector<TrialScore> ScoresOf(const std::vector<SequenceTrial>& trials,
     }
   });
   return scores;
+}
+
+std::vector<ModeSequence> LikeliestBehind(
+    const std::vector<SequenceTrial>& trials,
+    const std::vector<TrialScore>& scores, double level,
+    const ScoresBehind& asked) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!scores[i].log_posterior) continue;
+    const double behind = level - *scores[i].log_posterior;
+    if (behind > asked.nearest && behind < asked.farthest) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
+    return *scores[i].log_posterior;
+  });
+  std::vector<ModeSequence> likeliest;
+  for (const std::size_t i : order) {
+    if (likeliest.size() == asked.most) break;
+    likeliest.push_back(trials[i].sequence);
+  }
+  return likeliest;
 }
 
 }  // namespace hindsight

@@ -39,6 +39,18 @@ std::vector<TrialScore> ScoresOf(const std::vector<SequenceTrial>& trials,
                                  const SequenceSplice& splice,
                                  const std::unordered_set<std::size_t>& tried);
 
+/// Of how much less likely ones LikeliestBehind returns the likeliest.
+struct ScoresBehind {
+  double nearest = 0.0;   ///< [ln]
+  double farthest = 0.0;  ///< [ln]
+  std::size_t most = 0;
+};
+/// Sequences that were scored so far behind `level`, the likeliest first.
+std::vector<ModeSequence> LikeliestBehind(
+    const std::vector<SequenceTrial>& trials,
+    const std::vector<TrialScore>& scores, double level,
+    const ScoresBehind& asked);
+
 }  // namespace hindsight
 
 #endif  // HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_TRIALS_H_
