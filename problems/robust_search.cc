@@ -134,11 +134,12 @@ Evidence DoubtOfLeftOut(const Timeline& timeline,
 }
 
 /// Whether nodes are to be placed where a rough trajectory has the clocks: those that
-/// were chosen, fixes that err may have turned.
+/// were chosen, fixes that err may have turned. Not once errors have been sought: what was
+/// found is of nodes that a solution follows.
 bool IsElsewhere(const RoughTrajectory& rough, const MethodStage::Nodes& nodes,
                  const RobustSearch& searched) {
   constexpr int kMostPlaced = 3;
-  return searched.placed < kMostPlaced &&
+  return !searched.done && searched.placed < kMostPlaced &&
          FarthestFromNodes(
              nodes.problem->layout, *nodes.offsets, rough.states.back(),
              rough.P.Get(rough.states.size() - 1), kElsewhere) >= 0;
