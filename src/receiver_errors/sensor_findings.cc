@@ -25,9 +25,8 @@ double CostOfStep(const SensorTape& tape) {
   return std::max(1.0, states * states / (kUsual * kUsual));
 }
 
-/// Filter steps of a search; of long tapes so many a node. Of short ones it is mostly done
-/// with less; of those of ten minutes what is left out between is what else their errors
-/// may be.
+/// Filter steps of a search; of long tapes so many a node. A search of ten minutes that is
+/// to ask what else its errors may be needs more than the least, which an hour can afford.
 double MostEffort(const SensorTape& tape) {
   constexpr double kAtLeast = 2.4e6;
   constexpr double kPerNode = 400.0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "receiver_errors/hidden_changes.h"
 #include "receiver_errors/sequence_splice.h"
 #include "receiver_errors/sequence_trials.h"
 #include "receiver_errors/sequence_variations.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <initializer_list>
+
+#include "receiver_errors/sequence_parts.h"
 
 namespace hindsight {
 namespace {
@@ -12,18 +12,6 @@ namespace {
 /// lengths that are.
 constexpr std::size_t kShortest = 5;
 constexpr double kLengthRatio = 1.25;
-
-bool IsBias(ErrorMode mode) {
-  return mode == ErrorMode::kBiased || mode == ErrorMode::kSlight;
-}
-
-ErrorMode AsBias(ErrorMode mode) {
-  return IsBias(mode) ? mode : ErrorMode::kBiased;
-}
-
-ErrorMode ModeBefore(const ModeSequence& h, std::size_t i) {
-  return i == 0 ? ErrorMode::kGood : h[i - 1].mode;
-}
 
 /// Fixes at which something changes, and the end.
 std::vector<std::size_t> Changes(const ModeSequence& h) {
@@ -36,15 +24,9 @@ std::vector<std::size_t> Changes(const ModeSequence& h) {
   return at;
 }
 
-/// Gives fix i another step; whether it is an outlier is its own.
-void Set(std::size_t i, ErrorStep step, ModeSequence* h) {
-  step.outlier = (*h)[i].outlier;
-  (*h)[i] = step;
-}
-
 /// Fills [begin, end) with what goes on in a mode.
 void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ModeSequence* h) {
-  for (std::size_t i = begin; i < end; ++i) Set(i, {mode}, h);
+  for (std::size_t i = begin; i < end; ++i) SetStep(i, {mode}, h);
 }
 
 /// The sequence with its change at `from`, between `first` and `end`, at `to`.
@@ -52,14 +34,14 @@ ModeSequence Moved(ModeSequence h, std::size_t from, std::size_t to) {
   const ErrorStep step = h[from];
   GoOn(ModeBefore(h, from), from, to, &h);
   GoOn(step.mode, to, from + 1, &h);
-  Set(to, step, &h);
+  SetStep(to, step, &h);
   return h;
 }
 
 ModeSequence WithSegment(ModeSequence h, std::size_t begin, std::size_t end,
                          ErrorStep step) {
   GoOn(step.mode, begin, end, &h);
-  Set(begin, step, &h);
+  SetStep(begin, step, &h);
   return h;
 }
 
@@ -75,34 +57,6 @@ ModeSequence WithVelocitySteps(ModeSequence h,
   return h;
 }
 
-/// Fixes at which the receiver's error changes, whatever the IMU does, and the
-/// end.
-std::vector<std::size_t> Parts(const ModeSequence& h) {
-  std::vector<std::size_t> at;
-  for (std::size_t i = 0; i < h.size(); ++i) {
-    if (h[i].anew || h[i].mode != ModeBefore(h, i)) at.push_back(i);
-  }
-  at.push_back(h.size());
-  return at;
-}
-
-/// Gives [begin, end) another error, drawn anew unless good, and keeps velocity steps.
-void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
-              ModeSequence* h) {
-  const bool is_good = mode == ErrorMode::kGood;
-  for (std::size_t i = begin; i < end; ++i) {
-    const bool anew = i == begin && !is_good;
-    Set(i, {mode, anew, (*h)[i].velocity_step && !anew}, h);
-  }
-}
-
-/// Fixes from `begin` to before `end`, with an error of their own or none.
-struct ErrorStretch {
-  ErrorMode mode;
-  std::size_t begin;
-  std::size_t end;
-};
-
 /// What goes on before part c goes on through it, over a velocity step where the part
 /// begins, and, if asked for, one where it ends.
 ModeSequence SteppedInPlaceOf(ModeSequence h,
@@ -112,7 +66,7 @@ ModeSequence SteppedInPlaceOf(ModeSequence h,
   const std::size_t end = parts[c + 1];
   const ErrorMode before = ModeBefore(h, begin);
   for (std::size_t i = begin; i < end; ++i) {
-    Set(i, {before, false, i == begin || h[i].velocity_step}, &h);
+    SetStep(i, {before, false, i == begin || h[i].velocity_step}, &h);
   }
   if (at_end) h[end].velocity_step = true;
   return h;
@@ -131,20 +85,6 @@ void AddSteppedInPlaceOfErrors(const ModeSequence& h,
       all->push_back(SteppedInPlaceOf(h, at, c, true));
     }
   }
-}
-
-/// Of fixes behind gaps, in order, so many next to fix i that are within (begin, end).
-std::vector<std::size_t> Nearest(const std::vector<std::size_t>& behind_gaps,
-                                 std::size_t i, std::size_t begin,
-                                 std::size_t end) {
-  constexpr std::ptrdiff_t kMost = 4;
-  const auto first = std::ranges::upper_bound(behind_gaps, begin);
-  const auto past = std::ranges::lower_bound(behind_gaps, end);
-  if (first >= past) return {};
-  return i <= begin
-             ? std::vector(
-                   first, std::min(past, first + std::min(kMost, past - first)))
-             : std::vector(past - std::min(kMost, past - first), past);
 }
 
 std::size_t NextLength(std::size_t length) {
@@ -202,42 +142,6 @@ std::vector<ModeSequence> Variations(const ModeSequence& h) {
   }
   AddSwaps(h, &all);
   AddSteppedInPlaceOfErrors(h, &all);
-  return all;
-}
-
-std::vector<ModeSequence> HiddenChanges(
-    const ModeSequence& h, const std::vector<std::size_t>& behind_gaps) {
-  constexpr ErrorMode kGood = ErrorMode::kGood;
-  std::vector<ModeSequence> all;
-  const auto add = [&](std::initializer_list<ErrorStretch> stretches) {
-    ModeSequence& one = all.emplace_back(h);
-    for (const ErrorStretch& s : stretches)
-      SetError(s.mode, s.begin, s.end, &one);
-  };
-  const std::vector<std::size_t> at = Parts(h);
-  for (std::size_t c = 0; c + 1 < at.size(); ++c) {
-    const std::size_t before = c == 0 ? 0 : at[c - 1];
-    const std::size_t change = at[c];
-    const std::size_t after = at[c + 1];
-    const ErrorMode was = ModeBefore(h, change);
-    const ErrorMode is = h[change].mode;
-    for (const std::size_t gap : Nearest(behind_gaps, change, change, after)) {
-      if (is != kGood) add({{kGood, gap, after}});
-      if (was == kGood) continue;
-      const ErrorStretch good = {kGood, before, change};
-      const ErrorStretch error = {AsBias(was), change, gap};
-      add({good, error, {kGood, gap, after}});
-      if (is != kGood) add({good, error, {is, gap, after}});
-    }
-    for (const std::size_t gap : Nearest(behind_gaps, change, before, change)) {
-      if (was != kGood) add({{kGood, before, gap}, {was, gap, change}});
-      if (is == kGood) continue;
-      const ErrorStretch error = {AsBias(is), gap, change};
-      const ErrorStretch good = {kGood, change, after};
-      add({{kGood, before, gap}, error, good});
-      if (was != kGood) add({error, good});
-    }
-  }
   return all;
 }
 

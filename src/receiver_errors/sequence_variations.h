@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SEQUENCE_VARIATIONS_H_
 
-#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -15,13 +14,6 @@ namespace hindsight {
 /// begins, or there and where it ends, is in place of the error of a stretch; or the
 /// stretches before and after it change roles, the good one being the erroneous one.
 std::vector<ModeSequence> Variations(const ModeSequence& sequence);
-/// Hypotheses in which a gap hides how an error begins or ends: that which begins at a
-/// change of `sequence` ends behind a gap, or that which ends there begins behind one; or
-/// the receiver is good on that side of the change and errs on the other, up to a gap or
-/// from one on. `behind_gaps` are the first fixes behind gaps, in order; of those on a
-/// side up to the next change the four next to the change.
-std::vector<ModeSequence> HiddenChanges(
-    const ModeSequence& sequence, const std::vector<std::size_t>& behind_gaps);
 /// Hypotheses with one velocity_step of the IMU more than `sequence`: one for each fix at
 /// which nothing changes and which has no velocity_step.
 /// Each is shown to `visit` alone, as long as that returns true: of a long

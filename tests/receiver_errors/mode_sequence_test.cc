@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "filters/rts.h"
+#include "receiver_errors/hidden_changes.h"
 #include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sequence_refinement.h"
 #include "receiver_errors/sequence_smoother.h"

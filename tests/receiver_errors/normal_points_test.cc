@@ -144,6 +144,19 @@ TEST(ThinBetweenFixes, KeepsTheFixesAndTellsTheTrajectory) {
   EXPECT_FALSE(ThinBetweenFixes(TapeOf(PositionsOnly(20.0)), 0).has_value());
 }
 
+/// As wheels at the rate of the fixes do: half of the nodes are theirs.
+TEST(ThinBetweenFixes, CarriesWhatComesAsOftenAsTheFixes) {
+  TestProblem problem = PositionsOnly(40.0, 0.5);
+  std::size_t fixes = 0;
+  for (std::size_t k = 0; k < problem.measurements.size(); ++k) {
+    problem.measurements[k].sensor = static_cast<int>(k % 2);
+    fixes += k % 2 == 0 ? 1 : 0;
+  }
+  const auto thinned = ThinBetweenFixes(TapeOf(problem), 0);
+  ASSERT_TRUE(thinned.has_value());
+  EXPECT_EQ(thinned->size(), fixes);
+}
+
 TEST(NormalPoints, GiveTheirStepsToTheirFirstFixes) {
   const auto points = FormNormalPoints(TapeOf(PositionsOnly(6.0, 0.25)), 0);
   ASSERT_TRUE(points.has_value());
