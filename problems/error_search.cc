@@ -118,6 +118,13 @@ bool ErrorSearch::HasErrors(int sensor) const {
   });
 }
 
+std::optional<Problem> ErrorSearch::Expected(Problem problem) const {
+  bool any = false;
+  for (const Round& round : rounds_) any |= round.best().Expect(&problem);
+  if (!any) return std::nullopt;
+  return problem;
+}
+
 SearchDecisions ErrorSearch::Decisions() const {
   SearchDecisions all;
   for (const Round& round : rounds_) {

@@ -110,6 +110,10 @@ class ErrorSearch {
   /// state a node.
   void TakeSizes(const std::vector<State>& states);
 
+  /// As `problem`, which may have other decisions, with Gauss-Markov errors as they are
+  /// expected for covariances; none if there are no such errors.
+  std::optional<Problem> Expected(Problem problem) const;
+
   /// Adds to P, as solved, what else there may be; fills in the rest of a
   /// result.
   void Tell(RobustBatchResult* result) const;

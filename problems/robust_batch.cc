@@ -92,6 +92,16 @@ BatchResult SolveIfPossible(const std::vector<State>& initial,
   }
 }
 
+/// Covariances by what is expected of slow errors, where these stand.
+void ExpectErrors(const ErrorSearch& search, const BatchOptions& options,
+                  RobustBatchResult* result) {
+  std::optional<Problem> expected = search.Expected(result->problem);
+  if (!expected) return;
+  BatchResult batch =
+      SolveIfPossible(result->batch.states, options, &*expected);
+  if (batch.converged) result->batch.P = std::move(batch.P);
+}
+
 /// With the errors of an explanation, beside a rival. Where a sensor is left out, also
 /// if there are none.
 RobustBatchResult SolveWith(ErrorSearch* search,
@@ -115,7 +125,10 @@ RobustBatchResult SolveWith(ErrorSearch* search,
     result.batch = SolveIfPossible(*states, batch, &result.problem);
     result.stands = result.batch.converged;
     unsolved = !result.stands;
-    if (result.stands) search->TakeSizes(result.batch.states);
+    if (result.stands) {
+      search->TakeSizes(result.batch.states);
+      ExpectErrors(*search, batch, &result);
+    }
   }
   if (unsolved) {
     result.doubts.push_back(DoubtOfUnconverged());

@@ -13,24 +13,16 @@ namespace {
 
 constexpr double kRidgeStep = 2.0;  // of tau
 
-/// Of a bias, with the likeliest sigma of a tau.
+/// Of a bias, with the likeliest sigma of a tau, and factor on the noise of the IMU.
 struct RidgePoint {
-  double tau = 0.0;
-  double sigma = 0.0;
+  ErrorParameters parameters;
   double value = 0.0;  ///< ln of the posterior
 };
 
-ErrorParameters WithBias(ErrorParameters p, const RidgePoint& at) {
-  p.tau = at.tau;
-  p.sigma = at.sigma;
-  return p;
-}
-
 RidgePoint PointAt(const ErrorParameters& p, ParameterTuning* tuning) {
   tuning->ClimbAlone(&ErrorParameters::sigma, p);
-  return {.tau = tuning->parameters().tau,
-          .sigma = tuning->parameters().sigma,
-          .value = tuning->value()};
+  tuning->ClimbAlone(&ErrorParameters::imu_scale, tuning->parameters());
+  return {.parameters = tuning->parameters(), .value = tuning->value()};
 }
 
 /// The points with a tau `step` times that of the one before, `found` the first.
@@ -44,28 +36,38 @@ std::vector<RidgePoint> PointsFrom(const ErrorParameters& found, double step,
     if (tuning->IsSpent()) break;
     p.tau *= step;
     p.sigma *= std::sqrt(step);
-    const RidgePoint point = PointAt(p, tuning);
+    RidgePoint point = PointAt(p, tuning);
     if (point.value < best - kLeastGain) break;
     best = std::max(best, point.value);
-    ridge.push_back(point);
-    p = WithBias(p, point);
+    p = point.parameters;
+    ridge.push_back(std::move(point));
   }
   return ridge;
 }
 
-/// Between the points of a ridge of growing sigma and tau; at its ends beyond them.
-RidgePoint OfSigma(const std::vector<RidgePoint>& falling, double sigma) {
+/// Between the points of a ridge of falling tau where `measure` of the parameters, which
+/// falls with it, is `wanted`; at its ends beyond them.
+template <typename Measure>
+ErrorParameters PointWhere(const std::vector<RidgePoint>& falling,
+                           const Measure& measure, double wanted) {
   for (std::size_t i = 1; i < falling.size(); ++i) {
-    const RidgePoint& above = falling[i - 1];
-    const RidgePoint& below = falling[i];
-    if (below.sigma > sigma || above.sigma <= below.sigma) continue;
-    const double part =
-        std::log(sigma / below.sigma) / std::log(above.sigma / below.sigma);
-    return {.tau = below.tau * std::pow(above.tau / below.tau, part),
-            .sigma = sigma};
+    const ErrorParameters& above = falling[i - 1].parameters;
+    ErrorParameters p = falling[i].parameters;
+    const double most = measure(above);
+    const double least = measure(p);
+    if (least > wanted || most <= least) continue;
+    const double part = std::log(wanted / least) / std::log(most / least);
+    for (double ErrorParameters::*member :
+         {&ErrorParameters::tau, &ErrorParameters::sigma,
+          &ErrorParameters::imu_scale}) {
+      p.*member *= std::pow(above.*member / p.*member, part);
+    }
+    return p;
   }
-  return {.tau = falling.back().tau, .sigma = sigma};
+  return falling.back().parameters;
 }
+
+double SigmaOf(const ErrorParameters& p) { return p.sigma; }
 
 }  // namespace
 
@@ -80,16 +82,22 @@ BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
                     std::back_inserter(ridge));
   const RidgePoint& best =
       *std::ranges::max_element(ridge, {}, &RidgePoint::value);
+  const double duration = tape.t(tape.size() - 1) - tape.t(0);
+  const auto variance = [duration](const ErrorParameters& p) {
+    return VarianceOfMean(p, duration);
+  };
   double sum = 0.0;
   double sum_logs = 0.0;
+  double sum_variances = 0.0;
   for (const RidgePoint& one : ridge) {
     const double weight = std::exp(one.value - best.value);
     sum += weight;
-    sum_logs += weight * std::log(one.sigma);
+    sum_logs += weight * std::log(one.parameters.sigma);
+    sum_variances += weight * variance(one.parameters);
   }
-  BiasRange range{
-      .likeliest = WithBias(found, best),
-      .mean = WithBias(found, OfSigma(ridge, std::exp(sum_logs / sum)))};
+  BiasRange range{.likeliest = best.parameters,
+                  .mean = PointWhere(ridge, SigmaOf, std::exp(sum_logs / sum)),
+                  .expected = PointWhere(ridge, variance, sum_variances / sum)};
   const double prior =
       LogOfIntegral(PriorCurvature(tuning.TunableOf(&ErrorParameters::tau)));
   const double at_point = tuning.LogShareOfPrior(&ErrorParameters::tau,
@@ -97,6 +105,14 @@ BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
   range.log_gain =
       std::max(0.0, std::log(sum * std::log(kRidgeStep)) - prior - at_point);
   return range;
+}
+
+double VarianceOfMean(const ErrorParameters& p, double duration) {
+  const double x = duration / p.tau;
+  // 1 - (1 - exp(-x)) / x, of a short one without its cancellation.
+  constexpr double kShort = 1e-4;
+  const double rest = x < kShort ? 0.5 * x : 1.0 + std::expm1(-x) / x;
+  return 2.0 * p.sigma * p.sigma / x * rest;
 }
 
 }  // namespace hindsight

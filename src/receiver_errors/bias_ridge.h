@@ -13,6 +13,10 @@ struct BiasRange {
   /// square hangs on what is least likely of all, the far end of the ridge, and takes
   /// from fixes what they tell.
   ErrorParameters mean;
+  /// Of which the mean of the bias over the recording has the variance (VarianceOfMean)
+  /// that is expected a posteriori. Where nothing else tells positions that mean is what
+  /// nobody sees: covariances of `mean` would be too small by as much as is left open.
+  ErrorParameters expected;
   /// ln of the integral of the posterior over tau along the ridge, by what
   /// LogShareOfPrior takes it for at fixed sigma.
   double log_gain = 0.0;
@@ -20,11 +24,18 @@ struct BiasRange {
 
 /// Of an error that changes slowly only 2 sigma^2 / tau is seen, its walk over short
 /// times: what is slower the IMU's biases and the start take up, so that sigma and tau
-/// may both be much larger. `found` is followed along that ridge, by factors of two of
-/// tau each with its likeliest sigma, to where odds are a thousand against it.
+/// may both be much larger, and the noise of the IMU the smaller the more of what is slow
+/// is the sensor's. `found` is followed along that ridge, by factors of two of tau each
+/// with its likeliest sigma and factor on that noise, to where odds are a thousand
+/// against it.
 BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
                      const ErrorParameters& found, const ErrorParameters& from,
                      SearchEffort* effort = nullptr);
+
+/// Of the mean over so many seconds of a Gauss-Markov process [m^2]:
+/// 2 sigma^2 tau / T (1 - tau / T (1 - exp(-T / tau))) (Papoulis, Probability, Random
+/// Variables, and Stochastic Processes, on ergodicity of the mean).
+double VarianceOfMean(const ErrorParameters& p, double duration);
 
 }  // namespace hindsight
 

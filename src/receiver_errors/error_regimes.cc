@@ -290,6 +290,7 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
                       all.front().parameters, least_scale, problem.effort);
   ErrorRegimes out;
   out.kind = found.kind;
+  out.expected = found.expected;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {
     out.hypotheses =
         RefineHypotheses(problem.tape, parameters, all, problem.effort);

@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_ERROR_REGIMES_H_
 #define HINDSIGHT_RECEIVER_ERRORS_ERROR_REGIMES_H_
 
+#include <optional>
 #include <vector>
 
 #include "receiver_errors/hypothesis_search.h"
@@ -25,6 +26,9 @@ struct ErrorRegimes {
   /// ln of the evidence: of likelihood and prior of the sequence of the first
   /// hypothesis, integrated over its parameters (LogShareOfPrior).
   double log_evidence = 0.0;
+  /// Of kGaussMarkov, with sigma and tau by which covariances are told: what
+  /// BiasRange::expected is.
+  std::optional<ErrorParameters> expected = std::nullopt;
 };
 
 /// Of one fit: the likeliest, and others about as likely, which nothing may ever tell from

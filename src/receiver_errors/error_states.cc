@@ -15,17 +15,17 @@ namespace {
 constexpr double kNoError = 1e-3;
 
 /// Sigma of e at the first node [m]; 0 where the receiver is good there.
-double FirstSigma(const WeighedHypothesis& chosen) {
-  switch (chosen.steps.front().mode) {
+double FirstSigma(ErrorMode first, const ErrorParameters& parameters) {
+  switch (first) {
     case ErrorMode::kGood:
       return 0.0;
     case ErrorMode::kSlight:
-      return chosen.parameters.slight_sigma;
+      return parameters.slight_sigma;
     case ErrorMode::kBiased:
     case ErrorMode::kDrifting:
       break;
   }
-  return chosen.parameters.sigma;
+  return parameters.sigma;
 }
 
 }  // namespace
@@ -55,7 +55,9 @@ void ErrorStates::Extend(Problem* problem) const {
   if (!HasError()) return;
   ErrorLayout& layout = problem->layout;
   AddBlock(BlockKind::kSensorError, sensor.name + "_error", unit_,
-           std::max(floor_, FirstSigma(chosen_)), &layout);
+           std::max(floor_,
+                    FirstSigma(chosen_.steps.front().mode, chosen_.parameters)),
+           &layout);
   if (HasRate()) {
     AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", unit_ + "/s",
              chosen_.parameters.rate_sigma, &layout);
@@ -71,8 +73,29 @@ void ErrorStates::Extend(Problem* problem) const {
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
     const auto before = problem->timeline.StepsAfter(k - 1);
     steps.emplace_back(before.begin(), before.end());
-    const std::vector<BlockStep> own = StepsTo(k);
+    const std::vector<BlockStep> own = StepsTo(k, chosen_.parameters);
     steps.back().insert(steps.back().end(), own.begin(), own.end());
+  }
+  problem->timeline.SetBlockSteps(std::move(steps));
+}
+
+void ErrorStates::Replace(const ErrorParameters& other,
+                          Problem* problem) const {
+  const Block* e = problem->layout.Find(BlockKind::kSensorError, receiver_);
+  if (e == nullptr) return;
+  const double sigma =
+      std::max(floor_, FirstSigma(chosen_.steps.front().mode, other));
+  problem->prior.P.diagonal()
+      .segment(e->offset, e->dim)
+      .setConstant(sigma * sigma);
+  std::vector<std::vector<BlockStep>> steps;
+  for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
+    const auto all = problem->timeline.StepsAfter(k - 1);
+    const std::vector<BlockStep> own = StepsTo(k, other);
+    steps.emplace_back(all.begin(), all.end());
+    for (BlockStep& step : steps.back()) {
+      if (step.key == e->key) step = own.front();
+    }
   }
   problem->timeline.SetBlockSteps(std::move(steps));
 }
@@ -137,13 +160,13 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
   layout->Add(block);
 }
 
-std::vector<BlockStep> ErrorStates::StepsTo(std::size_t k) const {
+std::vector<BlockStep> ErrorStates::StepsTo(
+    std::size_t k, const ErrorParameters& parameters) const {
   const ErrorStep& before = chosen_.steps[k - 1];
   const ErrorStep& step = chosen_.steps[k];
   const double dt = tape_.t(k) - tape_.t(k - 1);
-  const ErrorDynamics d = DynamicsOf(chosen_.parameters, step, dt);
-  const double rate =
-      chosen_.parameters.rate_sigma * chosen_.parameters.rate_sigma;
+  const ErrorDynamics d = DynamicsOf(parameters, step, dt);
+  const double rate = parameters.rate_sigma * parameters.rate_sigma;
   BlockStep e = {
       {BlockKind::kSensorError, receiver_}, d.ee, d.q_ee + floor_ * floor_};
   BlockStep r = {{BlockKind::kErrorRate, receiver_}, 0.0, rate};

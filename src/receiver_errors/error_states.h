@@ -25,6 +25,10 @@ class ErrorStates {
   /// their steps, and gives the sensor's fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
 
+  /// In a problem that was extended so, gives e the sigma and correlation time of
+  /// `other`, by which the steps of e are those of a Gauss-Markov error throughout.
+  void Replace(const ErrorParameters& other, Problem* problem) const;
+
   /// The smoothed trajectory of the hypothesis, over the extended layout.
   std::vector<State> States(const ErrorLayout& layout) const;
 
@@ -42,7 +46,8 @@ class ErrorStates {
                 ErrorLayout* layout) const;
   /// Over the interval into node k. Where e does not drift r is drawn anew, so
   /// that it is free where a drift begins.
-  std::vector<BlockStep> StepsTo(std::size_t k) const;
+  std::vector<BlockStep> StepsTo(std::size_t k,
+                                 const ErrorParameters& parameters) const;
 
   const LinearTape& tape_;
   int receiver_;

@@ -72,6 +72,13 @@ void ReceiverErrors::Extend(Problem* problem) const {
   found_->states().Extend(problem);
 }
 
+bool ReceiverErrors::Expect(Problem* problem) const {
+  const std::optional<ErrorParameters>& expected = found_->regimes.expected;
+  if (!Stands() || !expected) return false;
+  found_->states().Replace(*expected, problem);
+  return true;
+}
+
 std::vector<State> ReceiverErrors::States(const ErrorLayout& layout) const {
   return found_->states().States(layout);
 }

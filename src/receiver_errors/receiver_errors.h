@@ -87,6 +87,11 @@ class ReceiverErrors {
   /// (Timeline::SetBlockSteps). White errors bring no blocks.
   void Extend(Problem* problem) const;
 
+  /// Gives a problem that was extended by it a Gauss-Markov error so large and slow as
+  /// is expected a posteriori, for covariances: the trajectory is told by what is
+  /// likelier, and smaller. False, and nothing done, of other errors.
+  bool Expect(Problem* problem) const;
+
   /// The smoothed trajectory of the chosen hypothesis, a state a node, over the
   /// layout of the extended problem.
   std::vector<State> States(const ErrorLayout& layout) const;

@@ -77,16 +77,23 @@ std::string Objection(const RegimeProblem& problem,
   return "";
 }
 
-/// RegimeChoice::undecided, of a choice that is noise.
+/// RegimeChoice::noise.
+std::size_t LikeliestNoise(const std::vector<ErrorRegimes>& all) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const bool is_noise = all[i].kind <= Kind::kWhite;
+    if (is_noise && all[i].log_evidence > all[best].log_evidence) best = i;
+  }
+  return best;
+}
+
+/// RegimeChoice::undecided.
 std::vector<RegimeChoice::Undecided> FindUndecided(
     const RegimeProblem& problem, const std::vector<ErrorRegimes>& all,
-    std::size_t chosen) {
-  const ErrorRegimes& noise = all[chosen];
+    const RegimeChoice& choice) {
+  const ErrorRegimes& noise = all[choice.chosen];
   if (noise.kind > Kind::kWhite) return {};
-  double best = noise.log_evidence;
-  for (const ErrorRegimes& one : all) {
-    if (one.kind <= Kind::kWhite) best = std::max(best, one.log_evidence);
-  }
+  const double best = all[choice.noise].log_evidence;
   std::vector<RegimeChoice::Undecided> undecided;
   for (const Kind kind : {Kind::kGaussMarkov, Kind::kSwitching}) {
     RegimeChoice::Undecided likeliest = {0, -kLeastGain};
@@ -147,7 +154,8 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
     choice.refused.push_back(fmt::format("{} errors do not stand: they {}",
                                          RegimeName(all[i].kind), objection));
   }
-  choice.undecided = FindUndecided(problem, all, choice.chosen);
+  choice.noise = LikeliestNoise(all);
+  choice.undecided = FindUndecided(problem, all, choice);
   return choice;
 }
 

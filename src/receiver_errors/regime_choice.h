@@ -30,6 +30,8 @@ struct RegimeChoice {
     std::size_t index = 0;
     double gain = 0.0;  ///< ln of its evidence over that of the likeliest noise
   };
+  /// The likeliest noise, whether it stands or not.
+  std::size_t noise = 0;
   /// Where noise was chosen: of each richer kind the likeliest whose evidence is within
   /// kLeastGain of the likeliest noise's either way, unless it predicts held-out
   /// stretches worse than what was chosen. The likelier kind first.

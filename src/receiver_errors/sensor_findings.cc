@@ -101,6 +101,10 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     kept.log_posterior = one.gain;
     if (points) kept.sequence = AtFixes(*points, kept.sequence);
   }
+  likeliest_noise = all[choice.noise].hypotheses.front();
+  if (points) {
+    likeliest_noise.sequence = AtFixes(*points, likeliest_noise.sequence);
+  }
   stopped = effort.stopped();
   spent = std::min(limits.share, effort.spent() / most);
   SearchEffort rest(limits.share * RefinementEffort(fixes),
@@ -266,10 +270,7 @@ std::vector<WeighedHypothesis> SensorFindings::SmoothUndecided() const {
 }
 
 WeighedHypothesis SensorFindings::SmoothNoise() const {
-  if (stands()) return chosen();
-  ErrorParameters stated;
-  stated.outlier_share = 0.0;
-  return Smooth(stated, ModeSequence(undecided.front().sequence.size()));
+  return Smooth(likeliest_noise.parameters, likeliest_noise.sequence);
 }
 
 std::vector<double> SensorFindings::Times() const {

@@ -52,6 +52,8 @@ struct ErrorDecisions {
   double gain = 0.0;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
+  /// The likeliest noise, by fix, against which these were weighed.
+  Hypothesis likeliest_noise;
   ErrorRegimes regimes;  ///< if they stand
   /// Of each fit of switching errors, whether they stand or not, by fix or normal point as
   /// they were searched.
@@ -75,7 +77,7 @@ struct SensorFindings : ErrorDecisions {
   double Duration() const { return tape.t(tape.size() - 1) - tape.t(0); }
   /// What may be beside noise, with its probability.
   std::vector<WeighedHypothesis> SmoothUndecided() const;
-  /// The noise that stands beside what is undecided, of which there must be some.
+  /// The noise against which what is undecided was weighed.
   WeighedHypothesis SmoothNoise() const;
   WeighedHypothesis Smooth(const ErrorParameters& parameters,
                            const ModeSequence& sequence) const;

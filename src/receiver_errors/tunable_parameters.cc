@@ -21,15 +21,18 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
   bool biased = false;
   bool slight = false;
   bool drifting = false;
+  std::size_t parts = 0;
   for (const ErrorStep& step : sequence) {
     good |= step.mode == ErrorMode::kGood;
     biased |= step.mode == ErrorMode::kBiased;
     slight |= step.mode == ErrorMode::kSlight;
     drifting |= step.mode == ErrorMode::kDrifting || step.velocity_step;
+    parts += step.anew ? 1 : 0;
   }
-  // What is slow is the IMU's or the receiver's: where it errs throughout nothing but
-  // the stated noise tells.
-  if (!good) out.back().least = 1.0;
+  // What is slow is the IMU's or the receiver's: where it errs throughout in several
+  // parts nothing but the stated noise tells. Of one error FollowBias asks both.
+  const bool is_one = biased && !slight && !drifting && parts <= 1;
+  if (!good && !is_one) out.back().least = 1.0;
   if (biased) {
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
     out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,

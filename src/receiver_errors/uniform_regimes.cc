@@ -101,6 +101,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
       LogEvidence(problem, one, from, range ? range->log_gain : 0.0, question);
   if (range) {
     one.parameters = range->mean;
+    out.expected = range->expected;
     score();
   }
   out.hypotheses.push_back(std::move(one));
