@@ -47,7 +47,10 @@ Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
     } else if (entry.block.key.kind == BlockKind::kDistance) {
       diagonal.setConstant(kDistanceFloor * kDistanceFloor);
     } else {
-      diagonal.setConstant(StepOf(interval, entry.block, distance).variance);
+      const BlockStep step = StepOf(interval, entry.block, distance);
+      for (int axis = 0; axis < dim; ++axis) {
+        diagonal(axis) = step.VarianceOf(axis);
+      }
     }
   }
   return S;

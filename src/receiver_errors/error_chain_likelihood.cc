@@ -61,7 +61,7 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
       (d.ee * view.P_ze + d.er * view.P_zr) * E.transpose();
   Eigen::Matrix3d P_ee = d.ee * d.ee * view.P_ee + d.er * d.er * view.P_rr +
                          d.ee * d.er * (view.P_er + view.P_er.transpose());
-  P_ee.diagonal().array() += d.q_ee;
+  P_ee.diagonal() += ErrorVariances(d);
   Eigen::Matrix3d S =
       view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {

@@ -17,6 +17,7 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
       const double tau = slight ? p.slight_tau : p.tau;
       d.ee = step.anew ? 0.0 : std::exp(-dt / tau);
       d.q_ee = sigma * sigma * (1.0 - d.ee * d.ee);
+      d.down = slight ? 1.0 : p.down;
       break;
     }
     case ErrorMode::kDrifting: {
@@ -33,6 +34,10 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
   return d;
 }
 
+Eigen::Vector3d ErrorVariances(const ErrorDynamics& d) {
+  return {d.q_ee, d.q_ee, d.down * d.down * d.q_ee};
+}
+
 Eigen::Matrix<double, 6, 6> ErrorPhi(const ErrorDynamics& d) {
   Eigen::Matrix<double, 6, 6> Phi = Eigen::Matrix<double, 6, 6>::Zero();
   Phi.topLeftCorner<3, 3>().diagonal().setConstant(d.ee);
@@ -43,7 +48,7 @@ Eigen::Matrix<double, 6, 6> ErrorPhi(const ErrorDynamics& d) {
 
 Eigen::Matrix<double, 6, 6> ErrorQ(const ErrorDynamics& d) {
   Eigen::Matrix<double, 6, 6> Q = Eigen::Matrix<double, 6, 6>::Zero();
-  Q.topLeftCorner<3, 3>().diagonal().setConstant(d.q_ee);
+  Q.topLeftCorner<3, 3>().diagonal() = ErrorVariances(d);
   Q.topRightCorner<3, 3>().diagonal().setConstant(d.q_er);
   Q.bottomLeftCorner<3, 3>().diagonal().setConstant(d.q_er);
   Q.bottomRightCorner<3, 3>().diagonal().setConstant(d.q_rr);

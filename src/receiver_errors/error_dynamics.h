@@ -15,15 +15,18 @@ inline constexpr double kDriftWalk = 1e-3;
 /// Over an interval, an axis:
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
-/// and a jump of the velocity of variance q_vv where it begins.
+/// w_e down having so many times that sigma, and a jump of the velocity of variance q_vv where it begins.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;
   double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;
   double q_vv = 0.0;
+  double down = 1.0;
 };
 ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
                          double dt);
 
+/// Of w_e, by axis.
+Eigen::Vector3d ErrorVariances(const ErrorDynamics& d);
 /// Of (e, r), three axes each: the transition and the covariance of the noise.
 Eigen::Matrix<double, 6, 6> ErrorPhi(const ErrorDynamics& d);
 Eigen::Matrix<double, 6, 6> ErrorQ(const ErrorDynamics& d);

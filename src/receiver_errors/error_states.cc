@@ -14,18 +14,18 @@ namespace {
 /// steps would leave the problem singular.
 constexpr double kNoError = 1e-3;
 
-/// Sigma of e at the first node [m]; 0 where the receiver is good there.
-double FirstSigma(ErrorMode first, const ErrorParameters& parameters) {
+/// Of e at the first node [m]; 0 where the receiver is good there.
+Eigen::Vector3d FirstSigma(ErrorMode first, const ErrorParameters& p) {
   switch (first) {
     case ErrorMode::kGood:
-      return 0.0;
+      return Eigen::Vector3d::Zero();
     case ErrorMode::kSlight:
-      return parameters.slight_sigma;
+      return Eigen::Vector3d::Constant(p.slight_sigma);
     case ErrorMode::kBiased:
     case ErrorMode::kDrifting:
       break;
   }
-  return parameters.sigma;
+  return {p.sigma, p.sigma, p.down * p.sigma};
 }
 
 }  // namespace
@@ -55,12 +55,12 @@ void ErrorStates::Extend(Problem* problem) const {
   if (!HasError()) return;
   ErrorLayout& layout = problem->layout;
   AddBlock(BlockKind::kSensorError, sensor.name + "_error", unit_,
-           std::max(floor_,
-                    FirstSigma(chosen_.steps.front().mode, chosen_.parameters)),
+           FirstSigma(chosen_.steps.front().mode, chosen_.parameters)
+               .cwiseMax(floor_),
            &layout);
   if (HasRate()) {
     AddBlock(BlockKind::kErrorRate, sensor.name + "_error_rate", unit_ + "/s",
-             chosen_.parameters.rate_sigma, &layout);
+             Eigen::Vector3d::Constant(chosen_.parameters.rate_sigma), &layout);
   }
   Prior& prior = problem->prior;
   const int added = HasRate() ? 6 : 3;
@@ -83,11 +83,10 @@ void ErrorStates::Replace(const ErrorParameters& other,
                           Problem* problem) const {
   const Block* e = problem->layout.Find(BlockKind::kSensorError, receiver_);
   if (e == nullptr) return;
-  const double sigma =
-      std::max(floor_, FirstSigma(chosen_.steps.front().mode, other));
-  problem->prior.P.diagonal()
-      .segment(e->offset, e->dim)
-      .setConstant(sigma * sigma);
+  problem->prior.P.diagonal().segment<3>(e->offset) =
+      FirstSigma(chosen_.steps.front().mode, other)
+          .cwiseMax(floor_)
+          .cwiseAbs2();
   std::vector<std::vector<BlockStep>> steps;
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
     const auto all = problem->timeline.StepsAfter(k - 1);

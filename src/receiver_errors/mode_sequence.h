@@ -43,8 +43,11 @@ struct ErrorParameters {
   double outlier_ratio = 10.0;  ///< sigma of an outlier, by that of others
   double sigma = 10.0;          ///< of a bias, an axis [m]
   double tau = 1000.0;          ///< its correlation time [s]
-  double slight_sigma = 2.0;    ///< of a slight bias: receivers have both
-  double slight_tau = 100.0;    ///< its correlation time [s]
+  /// Sigma of a bias down (the third row of a fix), by that of the others: satellites
+  /// are above, and a wall reflects sideways.
+  double down = 1.0;
+  double slight_sigma = 2.0;  ///< of a slight bias: receivers have both
+  double slight_tau = 100.0;  ///< its correlation time [s]
   double rate_sigma =
       0.1;  ///< of a drift, and of a velocity step, an axis [m/s]
   double imu_scale = 1.0;  ///< on the stated noise of the IMU

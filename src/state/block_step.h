@@ -17,6 +17,11 @@ struct BlockStep {
   double phi = 1.0;
   double variance = 0.0;
   std::optional<BlockKey> rate = std::nullopt;
+  double down = 1.0;  ///< sigma of w in the third axis, by that of the others
+
+  double VarianceOf(int axis) const {
+    return axis == 2 ? down * down * variance : variance;
+  }
 };
 
 /// As the block's evolution says; `distance` travelled in dt [m] for those that

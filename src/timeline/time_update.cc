@@ -55,7 +55,7 @@ void LinearizeGivenSteps(const ErrorLayout& layout,
       if (!block->active[static_cast<std::size_t>(axis)]) continue;
       const int parameter = block->parameter_offset + axis;
       out->Phi(component, component) = step.phi;
-      out->Q(component, component) = step.variance;
+      out->Q(component, component) = step.VarianceOf(axis);
       out->c(component) =
           step.phi * x_i.parameters(parameter) - x_j.parameters(parameter);
       if (rate != nullptr) {
