@@ -21,6 +21,7 @@ struct RidgePoint {
 
 RidgePoint PointAt(const ErrorParameters& p, ParameterTuning* tuning) {
   tuning->ClimbAlone(&ErrorParameters::sigma, p);
+  tuning->ClimbAlone(&ErrorParameters::down, tuning->parameters());
   tuning->ClimbAlone(&ErrorParameters::imu_scale, tuning->parameters());
   return {.parameters = tuning->parameters(), .value = tuning->value()};
 }
@@ -59,7 +60,7 @@ ErrorParameters PointWhere(const std::vector<RidgePoint>& falling,
     const double part = std::log(wanted / least) / std::log(most / least);
     for (double ErrorParameters::*member :
          {&ErrorParameters::tau, &ErrorParameters::sigma,
-          &ErrorParameters::imu_scale}) {
+          &ErrorParameters::down, &ErrorParameters::imu_scale}) {
       p.*member *= std::pow(above.*member / p.*member, part);
     }
     return p;

@@ -147,7 +147,8 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
-                           const std::string& unit, double sigma0,
+                           const std::string& unit,
+                           const Eigen::Vector3d& sigma0,
                            ErrorLayout* layout) const {
   Block block;
   block.key = {kind, receiver_};
@@ -155,7 +156,7 @@ void ErrorStates::AddBlock(BlockKind kind, const std::string& name,
   block.unit = unit;
   block.evolution =
       Evolution::GaussMarkov(chosen_.parameters.sigma, chosen_.parameters.tau);
-  block.sigma0.setConstant(sigma0);
+  block.sigma0 = sigma0;
   layout->Add(block);
 }
 
@@ -166,8 +167,10 @@ std::vector<BlockStep> ErrorStates::StepsTo(
   const double dt = tape_.t(k) - tape_.t(k - 1);
   const ErrorDynamics d = DynamicsOf(parameters, step, dt);
   const double rate = parameters.rate_sigma * parameters.rate_sigma;
-  BlockStep e = {
-      {BlockKind::kSensorError, receiver_}, d.ee, d.q_ee + floor_ * floor_};
+  BlockStep e = {.key = {BlockKind::kSensorError, receiver_},
+                 .phi = d.ee,
+                 .variance = d.q_ee + floor_ * floor_,
+                 .down = std::max(d.down, kNoError)};
   BlockStep r = {{BlockKind::kErrorRate, receiver_}, 0.0, rate};
   // A rate is free before a drift that begins; one that follows another needs
   // an interval in which it is drawn anew.

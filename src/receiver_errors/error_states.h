@@ -42,7 +42,7 @@ class ErrorStates {
   bool HasRate() const;
   void ApplyToSensor(Timeline* timeline) const;
   void AddBlock(BlockKind kind, const std::string& name,
-                const std::string& unit, double sigma0,
+                const std::string& unit, const Eigen::Vector3d& sigma0,
                 ErrorLayout* layout) const;
   /// Over the interval into node k. Where e does not drift r is drawn anew, so
   /// that it is free where a drift begins.

@@ -37,6 +37,7 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
     out.push_back({&ErrorParameters::tau, 0.1, 1e9, from.tau, 2.3});
     out.push_back({&ErrorParameters::sigma, 1e-4, 1e5, from.sigma, 2.3,
                    "the sigma of the bias", "m"});
+    if (is_one) out.push_back({&ErrorParameters::down, 0.02, 50.0, 1.0, 1.1});
   }
   if (slight) {
     out.push_back(
