@@ -13,6 +13,7 @@
 #include "evaluation/series_fold.h"
 #include "problems/method.h"
 #include "problems/reconstruction.h"
+#include "problems/shared_findings.h"
 
 namespace hindsight {
 namespace {
@@ -206,6 +207,7 @@ void AddBest(const StudyTable& cells, std::vector<Solution> solutions,
   record->Fail();
   if (solutions.empty()) return;
   ShareDisagreements(&solutions);
+  ShareFindings(&solutions);
   Judge(cells, dataset, judged_times, Best(solutions), record);
 }
 

@@ -29,6 +29,7 @@
 #include "io/write/summary.h"
 #include "measurements/sensor_kind.h"
 #include "problems/method.h"
+#include "problems/shared_findings.h"
 
 namespace hindsight {
 namespace {
@@ -205,6 +206,7 @@ int ReconstructInto(const RunRequest& request, ResultFolder* folder) {
   ending.get();
   ending = InBackground([&] { dataset.imu = {}; });
   ShareDisagreements(&solutions);
+  ShareFindings(&solutions);
   AdviseBetterMethods(&solutions);
   const Solution& best = Best(solutions);
   NameBest(best, solutions, &summary);

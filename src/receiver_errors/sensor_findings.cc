@@ -247,7 +247,8 @@ std::unique_ptr<const SensorFindings> FindingsAgain(
     return one.sequence.size() != fixes;
   };
   if ((decisions.stands() && is_other(decisions.regimes.hypotheses.front())) ||
-      std::ranges::any_of(decisions.undecided, is_other)) {
+      std::ranges::any_of(decisions.undecided, is_other) ||
+      (!decisions.undecided.empty() && is_other(decisions.likeliest_noise))) {
     return nullptr;
   }
   return std::make_unique<const SensorFindings>(decisions, tape);

@@ -159,6 +159,34 @@ TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
   }
 }
 
+/// An error of a receiver that goes from node to node otherwise down than sideways.
+TEST(Batch, GoesByGivenStepsAsTheSmootherDoes) {
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  Block error;
+  error.key = {BlockKind::kSensorError, 0};
+  error.sigma0 = Eigen::Vector3d(2.0, 2.0, 0.6);
+  options.layout.Add(error);
+  options.duration = 10.0;
+  const TestProblem problem = MakeProblem(options, 11);
+  Problem posed = problem.Pose(All(problem));
+  posed.timeline.SetBlockSteps(
+      {problem.nodes.size() - 1,
+       {BlockStep{
+           .key = error.key, .phi = 0.9, .variance = 0.76, .down = 0.3}}});
+  const SmoothedTrajectory rts =
+      SmoothRts(RunLinearizedFilter(problem.truth, &posed));
+  ChainProblem chain(problem.truth, &posed);
+  const CovarianceSeries marginals = chain.Marginals(chain.GaussNewtonStep());
+  const int e = problem.layout.Find(BlockKind::kSensorError, 0)->offset;
+  for (std::size_t k = 0; k < problem.truth.size(); ++k) {
+    const ErrorMatrix P = marginals.Get(k);
+    EXPECT_LT(ScaledDifference(rts.P.Get(k), P), 1e-9) << k;
+    EXPECT_LT(P(e + 2, e + 2), 0.5 * P(e, e)) << k;
+  }
+}
+
 TEST(Batch, ConvergedEqualsTheIteratedSmoother) {
   for (const Kind& kind : kKinds) {
     const TestProblem problem = ShortDrive(kind);

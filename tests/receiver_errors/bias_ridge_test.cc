@@ -17,19 +17,27 @@ using testing::MakeProblem;
 using testing::OfPositions;
 using testing::TapeOf;
 using testing::TestProblem;
+using testing::TestProblemOptions;
 
 constexpr double kFixSigma = 2.0;  // [m]
 
-/// Fixes with Gauss-Markov errors from the first to the last.
-LinearTape TapeWithErrors(double sigma, double tau) {
+/// Fixes with Gauss-Markov errors from the first to the last, so many times as large
+/// down, beside an IMU whose noise may be stated otherwise than it is.
+LinearTape TapeWithErrors(
+    double sigma, double tau,
+    const TestProblemOptions& stated = OfPositions(300.0, kFixSigma),
+    double down = 1.0) {
   TestProblem problem = MakeProblem(OfPositions(300.0, kFixSigma), 7);
+  problem.imu.noise = stated.noise;
   Random random(19);
   Eigen::Vector3d e = sigma * random.NormalVector3();
   const double a = std::exp(-1.0 / tau);
   for (Measurement& z : problem.measurements) {
     auto& fix = std::get<PositionFix>(z.model);
     e = a * e + sigma * std::sqrt(1.0 - a * a) * random.NormalVector3();
-    fix.p_e += NedAxes(fix.p_e) * (e + kFixSigma * random.NormalVector3());
+    fix.p_e +=
+        NedAxes(fix.p_e) * (Eigen::Vector3d(1.0, 1.0, down).cwiseProduct(e) +
+                            kFixSigma * random.NormalVector3());
   }
   return TapeOf(problem);
 }
@@ -72,6 +80,67 @@ TEST(FollowBias, GoesAsFarAsTheDataLeaveOpen) {
   };
   EXPECT_NEAR(std::log(walk(slow.range.mean) / walk(slow.range.likeliest)), 0.0,
               std::log(2.0));
+}
+
+/// The IMU is ten times better than stated: at the noise as stated what is slow would be
+/// its own, and the error one of seconds.
+TEST(FollowBias, TakesFromTheImuWhatTheSensorErrsBy) {
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  TestProblemOptions options = OfPositions(300.0, kFixSigma);
+  options.noise.accel_noise_density *= 10.0;
+  options.noise.gyro_noise_density *= 10.0;
+  const Told told =
+      TellOf(TapeWithErrors(5.0 * kFixSigma, 300.0, options), from);
+  EXPECT_LT(told.range.likeliest.imu_scale, 0.5);
+  EXPECT_GT(told.range.expected.sigma, 2.0 * kFixSigma);
+}
+
+/// Satellites are above: errors may be sideways alone. What says that there are none
+/// down is not to say that there are none of minutes.
+TEST(FollowBias, LeavesAnErrorSidewaysItsTime) {
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  const LinearTape tape = TapeWithErrors(5.0 * kFixSigma, 300.0,
+                                         OfPositions(300.0, kFixSigma), 0.0);
+  const Told told = TellOf(tape, from);
+  EXPECT_LT(told.range.likeliest.down, 0.2);
+  EXPECT_GT(told.range.expected.sigma, 2.0 * kFixSigma);
+  EXPECT_GT(told.range.expected.tau, 60.0);
+}
+
+TEST(FollowBias, ExpectsTheVarianceOfTheMean) {
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  const BiasRange range =
+      TellOf(TapeWithErrors(5.0 * kFixSigma, 100.0), from).range;
+  EXPECT_GT(VarianceOfMean(range.expected, 300.0),
+            VarianceOfMean(range.mean, 300.0));
+}
+
+/// As the double sum of its covariance over the duration.
+TEST(VarianceOfMean, IsThatOfSamples) {
+  constexpr double kDuration = 50.0;
+  constexpr int kSamples = 2000;
+  for (const double tau : {0.5, 10.0, 300.0}) {
+    ErrorParameters p;
+    p.sigma = 3.0;
+    p.tau = tau;
+    double sum = 0.0;
+    for (int lag = 0; lag < kSamples; ++lag) {
+      const double pairs = lag == 0 ? kSamples : 2.0 * (kSamples - lag);
+      sum += pairs * std::exp(-lag * kDuration / kSamples / tau);
+    }
+    const double variance = 9.0 * sum / kSamples / kSamples;
+    EXPECT_NEAR(VarianceOfMean(p, kDuration), variance, 2e-3 * variance) << tau;
+  }
+  ErrorParameters constant;
+  constant.sigma = 3.0;
+  constant.tau = 1e9;
+  EXPECT_NEAR(VarianceOfMean(constant, kDuration), 9.0, 1e-6);
 }
 
 }  // namespace

@@ -89,6 +89,7 @@ TEST(ErrorChain, PredictsAsItsTransitionSays) {
   ErrorParameters p = WithoutOutliers();
   p.imu_scale = 3.0;
   p.rate_sigma = 0.3;
+  p.down = 0.2;
   ErrorChain chain(seen, p);
   const int n = chain.dim();
   for (std::size_t k = 1; k < seen.size(); ++k) {
@@ -155,6 +156,7 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
   const SensorTape seen(tape, 0);
   ErrorParameters p = WithoutOutliers();
   p.outlier_share = 0.1;
+  p.down = 0.3;
   ErrorChain chain(seen, p);
   for (const ErrorMode mode :
        {ErrorMode::kGood, ErrorMode::kSlight, ErrorMode::kDrifting}) {
@@ -167,6 +169,10 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
            {ErrorStep{mode}, kStepVelocity, ErrorStep{ErrorMode::kBiased}}) {
         EXPECT_NEAR(chain.LikelihoodAfter(step, chain.ViewOf(own)).log,
                     chain.LikelihoodAfter(step, chain.ViewOf(all)).log, 1e-9);
+        Gaussian predicted = all;
+        chain.PredictError(step, &predicted);
+        EXPECT_NEAR(chain.LikelihoodAfter(step, chain.ViewOf(all)).log,
+                    chain.LikelihoodOfFix(step, predicted).log, 1e-9);
       }
       const auto of_own = chain.UpdateWithFix({mode}, &own);
       const auto of_all = chain.UpdateWithFix({mode}, &all);

@@ -142,13 +142,15 @@ TEST(LogShareOfPrior, IsTheIntegralOverEachParameter) {
   EXPECT_LT(sum, -6.0);
 }
 
-/// Beside exact readings; nothing but the stated noise tells what is slow from what the
-/// receiver is off by.
-TEST(TuneParameters, LeaveAnImuAsStatedWhereASensorErrsThroughout) {
+/// Beside exact readings. Of one error throughout the two are told apart; of several
+/// nothing but the stated noise tells what is slow from what the receiver is off by.
+TEST(TuneParameters, LeaveAnImuAsStatedWhereErrorsFollowEachOtherThroughout) {
   const NoisyFixes noisy = MakeNoisyFixes();
   const LinearTape tape = TapeOf(noisy.problem);
   ModeSequence biased(noisy.errors.size(), {ErrorMode::kBiased});
   biased.front().anew = true;
+  EXPECT_LT(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
+  biased[biased.size() / 2].anew = true;
   EXPECT_EQ(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
   ErrorParameters of_white;
   of_white.imu_scale = 0.1;

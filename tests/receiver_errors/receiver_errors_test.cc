@@ -591,6 +591,7 @@ TEST(ReceiverErrors, UndecidedOfOtherFixesAreSearchedAnew) {
   ErrorDecisions decisions = *FindThem(problem, tape).Decisions();
   ASSERT_FALSE(decisions.stands());
   decisions.undecided = {Hypothesis{ModeSequence(61)}};
+  EXPECT_EQ(decisions.likeliest_noise.sequence.size(), 61u);
   EXPECT_TRUE(TakeThem(decisions, problem, tape).IsUndecided());
   decisions.undecided = {Hypothesis{ModeSequence(3)}};
   EXPECT_THROW(TakeThem(decisions, problem, tape), std::logic_error);
@@ -603,6 +604,7 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
   ErrorDecisions decisions(problem, tape, 0);
+  decisions.likeliest_noise = {ModeSequence(61)};
   Hypothesis throughout{ModeSequence(61, {.mode = ErrorMode::kBiased})};
   throughout.sequence.front().anew = true;
   throughout.parameters.tau = 20.0;
@@ -625,6 +627,58 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
   EXPECT_THAT(errors.Notes(P),
               Contains(HasSubstr("not ruled out, 7.4 times less likely than "
                                  "noise: Gauss-Markov errors, sigma 10 m")));
+  // What leads there is noise that is likelier than what stands.
+  decisions.likeliest_noise = throughout;
+  EXPECT_FALSE(TakeThem(decisions, problem, tape).DoubtOfNoise(P).has_value());
+}
+
+/// A slow error of all fixes, of which only the walk is seen: covariances are those of
+/// the problem that is extended by what is expected of it.
+TEST(ReceiverErrors, AreExpectedLargerThanTheTrajectoryIsToldBy) {
+  const TestProblem test = FixesOfOneMinute();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions(problem, tape, 0);
+  decisions.choice.chosen = 1;
+  Hypothesis one{ModeSequence(61, {.mode = ErrorMode::kBiased})};
+  one.sequence.front().anew = true;
+  one.parameters.sigma = 1.0;
+  one.parameters.tau = 10.0;
+  one.parameters.down = 0.5;
+  decisions.regimes.kind = ErrorRegimes::Kind::kGaussMarkov;
+  decisions.regimes.hypotheses = {one};
+  const auto extended = [&](const ErrorDecisions& by, bool is_expected) {
+    Problem out = problem;
+    const ReceiverErrors errors = TakeThem(by, problem, tape);
+    errors.Extend(&out);
+    EXPECT_EQ(errors.Expect(&out), is_expected);
+    return out;
+  };
+  const Problem likely = extended(decisions, false);
+  decisions.regimes.expected = one.parameters;
+  decisions.regimes.expected->sigma = 3.0;
+  decisions.regimes.expected->tau = 90.0;
+  const Problem expected = extended(decisions, true);
+  one.parameters = *decisions.regimes.expected;
+  decisions.regimes.hypotheses = {one};
+  decisions.regimes.expected.reset();
+  const Problem large = extended(decisions, false);
+  EXPECT_EQ(expected.prior.P, large.prior.P);
+  EXPECT_GT(expected.prior.P.trace(), likely.prior.P.trace());
+  const int e = expected.layout.Find(BlockKind::kSensorError, 0)->offset;
+  EXPECT_EQ(expected.prior.P(e, e), 9.0);
+  EXPECT_EQ(expected.prior.P(e + 2, e + 2), 2.25);
+  for (std::size_t k = 0; k + 1 < tape.size(); ++k) {
+    const auto a = expected.timeline.StepsAfter(k);
+    const auto b = large.timeline.StepsAfter(k);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].phi, b[i].phi);
+      EXPECT_EQ(a[i].variance, b[i].variance);
+      EXPECT_EQ(a[i].down, b[i].down);
+    }
+    EXPECT_NE(a[0].phi, likely.timeline.StepsAfter(k)[0].phi);
+  }
 }
 
 /// An error that grows by 3.6 m/s from 21 to 30 s.

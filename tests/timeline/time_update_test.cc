@@ -32,9 +32,10 @@ TestProblem DriftingProblem() {
 std::vector<std::vector<BlockStep>> Steps() {
   const BlockKey e = {BlockKind::kSensorError, 0};
   const BlockKey r = {BlockKind::kErrorRate, 0};
-  return {{{e, 1.0, 1e-6, r}, {r, 1.0, 4e-7}},
-          {{e, 0.9, 0.19}, {r, 0.0, 0.25}},
-          {{e, 0.0, 1.0}, {r, 0.0, 0.25}}};
+  return {
+      {{e, 1.0, 1e-6, r}, {r, 1.0, 4e-7}},
+      {{.key = e, .phi = 0.9, .variance = 0.19, .down = 2.0}, {r, 0.0, 0.25}},
+      {{e, 0.0, 1.0}, {r, 0.0, 0.25}}};
 }
 
 State WithError(const TestProblem& problem) {
@@ -73,6 +74,8 @@ TEST(TimeUpdate, TakesTheStepsOfTheTimelineInPlaceOfEvolutions) {
   EXPECT_DOUBLE_EQ(transition.Phi(e.offset, r.offset), 0.0);
   EXPECT_DOUBLE_EQ(transition.Phi(r.offset, r.offset), 0.0);
   EXPECT_DOUBLE_EQ(transition.Q(r.offset, r.offset), 0.25);
+  EXPECT_DOUBLE_EQ(transition.Q(e.offset + 1, e.offset + 1), 0.19);
+  EXPECT_DOUBLE_EQ(transition.Q(e.offset + 2, e.offset + 2), 0.76);
 }
 
 /// So that what is sampled between nodes goes on to the next of them.
