@@ -605,6 +605,7 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
   const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
   ErrorDecisions decisions(problem, tape, 0);
   decisions.likeliest_noise = {ModeSequence(61)};
+  decisions.likeliest_noise.parameters.outlier_share = 0.0;
   Hypothesis throughout{ModeSequence(61, {.mode = ErrorMode::kBiased})};
   throughout.sequence.front().anew = true;
   throughout.parameters.tau = 20.0;
@@ -628,6 +629,7 @@ TEST(ReceiverErrors, ThatNoiseDoesNotRuleOutAreDoubtfulWhereTheyLeadElsewhere) {
               Contains(HasSubstr("not ruled out, 7.4 times less likely than "
                                  "noise: Gauss-Markov errors, sigma 10 m")));
   // What leads there is noise that is likelier than what stands.
+  decisions.undecided = {throughout};
   decisions.likeliest_noise = throughout;
   EXPECT_FALSE(TakeThem(decisions, problem, tape).DoubtOfNoise(P).has_value());
 }
