@@ -3,12 +3,31 @@
 #include <fmt/core.h>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/gap.h"
 #include "measurements/sensor_kind.h"
 
 namespace hindsight {
+namespace {
+
+Evidence DoubtOfLast(const std::string& name, double t) {
+  return {
+      .grade = Grade::kDoubtful,
+      .what = fmt::format("the last fix of {}, at {:.1f} s, is taken for an "
+                          "outlier: no other sensor tells positions, and "
+                          "nothing behind it whether it is the others that "
+                          "have drifted away",
+                          name, t),
+      .t_begin = t,
+      .t_end = t,
+      .causes = {"an outlier, or an error that grows more slowly than the "
+                 "IMU shows, and ends"},
+      .remedies = {"a position that is known at the end"}};
+}
+
+}  // namespace
 
 RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes) {
   std::vector<double> spacings;
@@ -45,10 +64,21 @@ void DoubtOutliersAtGaps(const Timeline& timeline,
     fixes[static_cast<std::size_t>(r.sensor)].push_back(
         {r.t, r.weight < kOutlier});
   }
+  const auto is_positioning = [&](std::size_t i) {
+    return timeline.sensors()[i].kind->is_position && !fixes[i].empty();
+  };
+  std::size_t positioning = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
+    positioning += is_positioning(i) ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < fixes.size(); ++i) {
+    if (!is_positioning(i)) continue;
     const Sensor& sensor = timeline.sensors()[i];
+    if (positioning == 1 && fixes[i].back().outlier) {
+      doubts->push_back(DoubtOfLast(sensor.name, fixes[i].back().t));
+    }
     const RowAtGap row = LongestRowAtGap(fixes[i]);
-    if (!sensor.kind->is_position || row.count < kLeast) continue;
+    if (row.count < kLeast) continue;
     doubts->push_back(
         {.grade = Grade::kDoubtful,
          .what = fmt::format("{} fixes of {} in a row, from {:.1f} to {:.1f} s "

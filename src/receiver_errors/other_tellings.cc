@@ -80,36 +80,6 @@ double Spacing(const RegimeProblem& problem, std::size_t fixes) {
   return duration / static_cast<double>(std::max<std::size_t>(1, fixes));
 }
 
-/// Keeps the likelier one.
-void Weigh(const RegimeProblem& problem, const ErrorParameters& parameters,
-           ModeSequence sequence, Attempt* best) {
-  problem.effort->Spend(problem.tape.size());
-  const double log_posterior = LogPosterior(problem, parameters, sequence);
-  if (!best->sequence.empty() && log_posterior <= best->log_posterior) return;
-  *best = {parameters, std::move(sequence), log_posterior};
-}
-
-/// Behind a drift of those from `begin` on that leads as far off as the last fix, which
-/// alone is right: what grows slowly no IMU shows, wherever it began.
-void WeighDriftsToTheLast(const RegimeProblem& problem, std::size_t begin,
-                          std::size_t fixes, ErrorParameters p, Attempt* best) {
-  constexpr std::size_t kParts = 8;
-  const std::size_t last = fixes - 1;
-  const double size = p.sigma;
-  for (std::size_t part = 0; part < kParts; ++part) {
-    const std::size_t from = begin + part * (last - begin) / kParts;
-    if (from + 1 >= last) continue;
-    ModeSequence sequence(fixes);
-    for (std::size_t i = from; i < last; ++i) {
-      sequence[i].mode = ErrorMode::kDrifting;
-    }
-    sequence[from].anew = true;
-    p.rate_sigma =
-        size / (static_cast<double>(last - from) * Spacing(problem, fixes));
-    Weigh(problem, p, std::move(sequence), best);
-  }
-}
-
 }  // namespace
 
 std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
@@ -136,22 +106,22 @@ Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
     const std::size_t past = begins[s + 1];
     if (past - begin < 2) continue;
     for (const std::size_t right : {begin, past - 1}) {
-      if (!fixes[right].outlier) continue;
-      ErrorParameters p;
-      p.scale = noise.parameters.scale;
-      p.sigma = fixes[right].off;
-      p.tau = kLasting;
-      if (right + 1 == fixes.size()) {
-        WeighDriftsToTheLast(problem, begin, fixes.size(), p, &best);
-      }
       const bool hidden = right == begin ? past < fixes.size() : begin > 0;
-      if (!hidden) continue;
+      if (!fixes[right].outlier || !hidden) continue;
       ModeSequence sequence(fixes.size());
       for (std::size_t i = begin; i < past; ++i) {
         if (i != right) sequence[i].mode = ErrorMode::kBiased;
       }
       sequence[right == begin ? begin + 1 : begin].anew = true;
-      Weigh(problem, p, std::move(sequence), &best);
+      ErrorParameters p;
+      p.scale = noise.parameters.scale;
+      p.sigma = fixes[right].off;
+      p.tau = kLasting;
+      problem.effort->Spend(problem.tape.size());
+      const double log_posterior = LogPosterior(problem, p, sequence);
+      if (best.sequence.empty() || log_posterior > best.log_posterior) {
+        best = {p, std::move(sequence), log_posterior};
+      }
     }
   }
   return best;
@@ -169,7 +139,11 @@ Attempt BestDriftThatEnds(const RegimeProblem& problem,
     ErrorParameters p = jumping.parameters;
     p.rate_sigma = size / (static_cast<double>(drifts) * dt);
     p.imu_scale = std::min(1.0, p.imu_scale);
-    Weigh(problem, p, std::move(one), &best);
+    problem.effort->Spend(problem.tape.size());
+    const double log_posterior = LogPosterior(problem, p, one);
+    if (best.sequence.empty() || log_posterior > best.log_posterior) {
+      best = {p, std::move(one), log_posterior};
+    }
   }
   return best;
 }

@@ -14,9 +14,8 @@ std::vector<Attempt> ExchangedRoles(const RegimeProblem& problem,
 
 /// What else a fix may be that noise takes for an outlier, beside a gap or an end of the
 /// recording: right, and all others up to the next gap err, which hides where they begin
-/// or end; of the very last fix, that those before it have drifted away as far, from
-/// whenever on. The likeliest, by errors as large as the outlier; without a sequence if
-/// there is none.
+/// or end. The likeliest, by errors as large as the outlier; without a sequence if there
+/// is none.
 Attempt BestOutlierThatIsRight(const RegimeProblem& problem,
                                const Hypothesis& noise);
 
