@@ -169,15 +169,17 @@ std::vector<std::string> DescribeErrors(const ModeSequence& steps,
   };
   std::vector<std::string> all;
   if (has(ErrorMode::kBiased)) {
+    constexpr double kAlike = 1.5;
+    const bool alike = p.down < kAlike && p.down > 1.0 / kAlike;
+    const std::string sigma =
+        fmt::format("sigma {:.3g} {}", p.sigma, unit) +
+        (alike ? "" : fmt::format(" ({:.2g} down)", p.down * p.sigma));
     all.push_back(
         p.tau <= duration
-            ? fmt::format(
-                  "Gauss-Markov errors, sigma {:.3g} {}, correlation time "
-                  "{:.3g} s",
-                  p.sigma, unit, p.tau)
-            : fmt::format(
-                  "biases, sigma {:.3g} {}, that walk by {:.3g} {}/sqrt(s)",
-                  p.sigma, unit, p.sigma * std::sqrt(2.0 / p.tau), unit));
+            ? fmt::format("Gauss-Markov errors, {}, correlation time {:.3g} s",
+                          sigma, p.tau)
+            : fmt::format("biases, {}, that walk by {:.3g} {}/sqrt(s)", sigma,
+                          p.sigma * std::sqrt(2.0 / p.tau), unit));
   }
   if (has(ErrorMode::kSlight)) {
     all.push_back(

@@ -66,7 +66,7 @@ std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p);
 /// By what sigma the errors of a sequence's steps are taken for possible, a clause for
 /// each kind; `unit` of the error; empty if they have none. Of a Gauss-Markov error whose correlation time is
 /// longer than the recording, of `duration` [s], its walk, sqrt(2 / tau) sigma, in place
-/// of that time, which nobody sees.
+/// of that time, which nobody sees; its sigma down where it is another by half.
 std::vector<std::string> DescribeErrors(const ModeSequence& steps,
                                         const ErrorParameters& p,
                                         const std::string& unit,

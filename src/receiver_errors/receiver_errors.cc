@@ -151,6 +151,12 @@ std::vector<std::string> ReceiverErrors::Notes(
                            found_->Duration());
     notes.insert(notes.begin(),
                  DescribeNoise(found_->regimes.kind, chosen.parameters));
+    if (const auto& expected = found_->regimes.expected) {
+      notes.push_back(fmt::format(
+          "covariances by what is expected of it, sigma {:.3g} {}, correlation "
+          "time {:.3g} s",
+          expected->sigma, found_->unit, expected->tau));
+    }
     notes.push_back(fmt::format(
         "against the noise as stated the evidence is exp({:.3g}) to 1",
         found_->gain));

@@ -122,5 +122,62 @@ TEST(MethodComparison, OfAttitudeAloneTheForwardMethodIsAskedToo) {
   }
 }
 
+/// So many sigmas of 1 mm north everywhere, with such variances.
+Solution Shifted(const char* method, double sigmas, double sigma) {
+  Solution solution = EndedBy(method, 0, 0.0);
+  const int dim = solution.layout.dim();
+  ErrorVector d = ErrorVector::Zero(dim);
+  d(0) = 1e-3 * sigmas;
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    const double t = solution.states[k].t;
+    solution.states[k] = Retract(solution.layout, solution.states[k], d);
+    solution.states[k].t = t;
+    solution.covariances.Set(
+        k, ErrorMatrix(1e-6 * sigma * sigma * ErrorMatrix::Identity(dim, dim)));
+  }
+  return solution;
+}
+
+/// What the search leaves open, or how far off it is, an axis: d^2 / 3 + sigma^2.
+TEST(MethodComparison, WhoIsTooSureByASearchIsDoubtful) {
+  const auto too_sure = [](double sigmas, double sigma, bool is_later) {
+    MethodComparison comparison(TrajectoryTerms());
+    const Solution batch = Shifted("batch", 0.0, 1.0);
+    const Solution robust = Shifted("robust_batch", sigmas, sigma);
+    comparison.Compare(is_later ? robust : batch);
+    EXPECT_TRUE(comparison.TooSure("batch").empty());
+    comparison.Compare(is_later ? batch : robust);
+    return comparison.TooSure(is_later ? "batch" : "robust_batch");
+  };
+  for (const bool is_later : {false, true}) {
+    EXPECT_TRUE(too_sure(0.0, 2.9, is_later).empty());
+    EXPECT_TRUE(
+        too_sure(std::sqrt(3.0 * (2.9 * 2.9 - 1.0)), 1.0, is_later).empty());
+    for (const auto& all :
+         {too_sure(0.0, 3.1, is_later),
+          too_sure(std::sqrt(3.0 * (3.1 * 3.1 - 1.0)), 1.0, is_later)}) {
+      ASSERT_EQ(all.size(), 1u);
+      EXPECT_EQ(all[0].first, "batch");
+      EXPECT_EQ(all[0].second.grade, Grade::kDoubtful);
+      EXPECT_THAT(all[0].second.what,
+                  ::testing::HasSubstr("robust_batch finds errors of sensors "
+                                       "by which positions are 3.1 sigma off"));
+    }
+  }
+}
+
+TEST(MethodComparison, OnlyASearchSaysWhoIsTooSure) {
+  MethodComparison comparison(TrajectoryTerms());
+  comparison.Compare(Shifted("batch", 0.0, 1.0));
+  comparison.Compare(Shifted("imm_smoother", 0.0, 5.0));
+  EXPECT_TRUE(comparison.TooSure("imm_smoother").empty());
+  comparison.Compare(Shifted("robust_batch", 0.0, 1.0));
+  EXPECT_TRUE(comparison.TooSure("robust_batch").empty());
+  Solution moved = Shifted("rts", 50.0, 1.0);
+  moved.states[2].t += 0.1;
+  comparison.Compare(moved);
+  EXPECT_TRUE(comparison.TooSure("rts").empty());
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -5,8 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "measurements/sensor_kind.h"
+#include "support/test_problem.h"
+
 namespace hindsight {
 namespace {
+
+using testing::MakeProblem;
+using testing::TestProblem;
+using testing::TestProblemOptions;
 
 /// A fix a second: '.' is one that is believed, 'x' an outlier, ' ' none.
 RowAtGap LongestOf(const std::string& text) {
@@ -48,6 +55,41 @@ TEST(OutlierRows, AGapPartsARow) {
 TEST(OutlierRows, FiveSpacingsAreNoGap) {
   EXPECT_EQ(LongestOf("......xx    .......").count, 0);
   EXPECT_EQ(LongestOf("......xx     .......").count, 2);
+}
+
+/// Doubts of two sensors, the first of positions, with fixes as of LongestOf; the second of
+/// positions or of velocities.
+std::vector<Evidence> DoubtsOf(const std::string& first,
+                               const std::string& second, bool are_positions) {
+  TestProblem problem = MakeProblem(TestProblemOptions());
+  problem.sensors[1].kind = are_positions ? &PositionKind() : &VelocityKind();
+  std::vector<ResidualRecord> residuals;
+  for (const int sensor : {0, 1}) {
+    const std::string& text = sensor == 0 ? first : second;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+      ResidualRecord r;
+      r.sensor = sensor;
+      r.t = static_cast<double>(k);
+      r.accepted = true;
+      r.weight = text[k] == 'x' ? 0.1 : 1.0;
+      residuals.push_back(r);
+    }
+  }
+  std::vector<Evidence> doubts;
+  DoubtOutliersAtGaps(problem.MakeTimeline(), residuals, &doubts);
+  return doubts;
+}
+
+/// Nothing comes behind it that would tell who is right.
+TEST(OutlierRows, TheLastFixOfTheOnlySensorOfPositionsIsDoubtful) {
+  const std::vector<Evidence> doubts =
+      DoubtsOf(".........x", "..........", false);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].grade, Grade::kDoubtful);
+  EXPECT_EQ(doubts[0].what.find("the last fix of gnss, at 9.0 s"), 0u);
+  EXPECT_TRUE(DoubtsOf(".........x", "..........", true).empty());
+  EXPECT_TRUE(DoubtsOf("x..x....x.", ".........x", false).empty());
+  EXPECT_EQ(DoubtsOf("xx........", "..........", true).size(), 1u);
 }
 
 }  // namespace
