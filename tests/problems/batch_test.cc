@@ -166,6 +166,7 @@ TEST(Batch, GoesByGivenStepsAsTheSmootherDoes) {
   options.layout = TypicalLayout(options.noise);
   Block error;
   error.key = {BlockKind::kSensorError, 0};
+  error.evolution = Evolution::GaussMarkov(2.0, 10.0);
   error.sigma0 = Eigen::Vector3d(2.0, 2.0, 0.6);
   options.layout.Add(error);
   options.duration = 10.0;
