@@ -156,7 +156,11 @@ class ErrorSearch {
   /// ln of how much likelier changes of the errors of velocities are than those of
   /// independent sensors, where errors of positions change at the same time.
   double LogOfCoincidences() const;
-  static void TellNotes(const Round& round, RobustBatchResult* result);
+  /// `imu_scale` as of ReceiverErrors::Doubts.
+  static void TellNotes(const Round& round, double imu_scale,
+                        RobustBatchResult* result);
+  /// The least factor on the noise of the IMU beside any errors that stand, or 1.
+  double LeastImuScale() const;
   /// Errors that sensors may have which were left their noise.
   void TellUndecided(RobustBatchResult* result) const;
   /// What it is worth that another sensor errs in place of the likeliest.

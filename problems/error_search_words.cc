@@ -43,12 +43,13 @@ void ErrorSearch::TakeSizes(const std::vector<State>& states) {
 
 void ErrorSearch::Tell(RobustBatchResult* result) const {
   result->trust.resize(problem_.timeline.sensors().size());
+  const double imu_scale = LeastImuScale();
   double most = 0.0;
   for (std::size_t i = 0; i < rounds_.size(); ++i) {
     const ReceiverErrors& best = rounds_[i].best();
     // The last round may have found nothing: then it tells what was refused.
     if (!best.Stands() && i > 0) break;
-    TellNotes(rounds_[i], result);
+    TellNotes(rounds_[i], imu_scale, result);
     if (!best.Stands()) break;
     // What else velocities may have done without the positions is farther off than
     // with them.
@@ -96,7 +97,17 @@ void ErrorSearch::TellUndecided(RobustBatchResult* result) const {
   }
 }
 
-void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
+double ErrorSearch::LeastImuScale() const {
+  double least = 1.0;
+  for (const Round& round : rounds_) {
+    if (!round.best().Stands()) break;
+    least = std::min(least, round.best().imu_scale());
+  }
+  return least;
+}
+
+void ErrorSearch::TellNotes(const Round& round, double imu_scale,
+                            RobustBatchResult* result) {
   for (const ReceiverErrors& one : round.errors) {
     const bool best = &one == &round.best();
     if (best || !round.best().Stands()) {
@@ -104,7 +115,7 @@ void ErrorSearch::TellNotes(const Round& round, RobustBatchResult* result) {
         AddOnce(std::move(note), std::identity(), &result->notes);
       }
     }
-    for (Evidence& doubt : one.Doubts()) {
+    for (Evidence& doubt : one.Doubts(imu_scale)) {
       if (best || doubt.value == std::nullopt) {
         AddOnce(std::move(doubt), &Evidence::what, &result->doubts);
       }

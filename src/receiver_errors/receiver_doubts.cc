@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -31,7 +32,7 @@ constexpr double kSureByStart = 12.5;
 
 }  // namespace
 
-std::vector<Evidence> ReceiverErrors::Doubts() const {
+std::vector<Evidence> ReceiverErrors::Doubts(double imu_scale) const {
   std::vector<Evidence> doubts;
   if (!found_->stands()) return doubts;
   const std::optional<ErrantEnd> errant = FindErrantEnd(*found_);
@@ -92,14 +93,15 @@ std::vector<Evidence> ReceiverErrors::Doubts() const {
          .remedies = {"'check --noise', and the noise that it finds"}});
   }
   constexpr double kQuiet = 1.0 / kMisstatedImu;
-  if (imu < kQuiet && HasVelocitySteps()) {
+  const double least = std::min(imu, imu_scale);
+  if (least < kQuiet && HasVelocitySteps()) {
     doubts.push_back(
         {.grade = Grade::kDoubtful,
          .what = fmt::format(
              "beside errors of {}, the velocity of the IMU steps, but its "
              "noise is {:.2g} times as stated (limit {:.2g})",
-             found_->name, imu, kQuiet),
-         .value = imu,
+             found_->name, least, kQuiet),
+         .value = least,
          .limit = kQuiet,
          .unit = "1",
          .causes = {"errors of a sensor that are taken for those of an IMU "

@@ -260,6 +260,10 @@ bool ReceiverErrors::AverageWith(const std::vector<RivalSensor>& others,
   return comparable;
 }
 
+double ReceiverErrors::imu_scale() const {
+  return found_->chosen().parameters.imu_scale;
+}
+
 double ReceiverErrors::LogOfPrior() const { return found_->log_prior; }
 
 bool ReceiverErrors::HasVelocitySteps() const {

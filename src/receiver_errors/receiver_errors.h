@@ -119,8 +119,12 @@ class ReceiverErrors {
   /// What makes the result doubtful: the only sensor of positions erring to its
   /// last fix, or from its first, for more than an eighth of the recording; the only
   /// other one off in its place, where they agree nowhere; an IMU whose noise has to be
-  /// taken for much more than stated, or for much less while its velocity steps.
-  std::vector<Evidence> Doubts() const;
+  /// taken for much more than stated, or for much less while its velocity steps. It is
+  /// one IMU: `imu_scale` is the least factor on its noise that was found beside errors
+  /// of other sensors.
+  std::vector<Evidence> Doubts(double imu_scale = 1.0) const;
+  /// The factor on the noise of the IMU beside the errors, which stand.
+  double imu_scale() const;
 
   /// What makes the result doubtful beside noise that was chosen: errors that lose to
   /// it, or win, by odds of less than a thousand, and would make the mean NEES of the

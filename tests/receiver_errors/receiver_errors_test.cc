@@ -711,8 +711,9 @@ TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {
   ErrorDecisions decisions = SensorFindings(problem, tape, 0, {});
   decisions.regimes.hypotheses.resize(1);
   Hypothesis& one = decisions.regimes.hypotheses.front();
-  const auto is_doubtful = [&] {
-    const auto doubts = TakeThem(decisions, problem, tape).Doubts();
+  const auto is_doubtful = [&](double beside_others = 1.0) {
+    const auto doubts =
+        TakeThem(decisions, problem, tape).Doubts(beside_others);
     return std::ranges::any_of(doubts, [](const Evidence& doubt) {
       return doubt.what.find("the velocity of the IMU steps") !=
              std::string::npos;
@@ -724,6 +725,9 @@ TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {
   EXPECT_TRUE(is_doubtful());
   one.parameters.imu_scale = 0.9;
   EXPECT_FALSE(is_doubtful());
+  EXPECT_TRUE(is_doubtful(0.4));
+  one.sequence[45].velocity_step = false;
+  EXPECT_FALSE(is_doubtful(0.4));
 }
 
 /// A search that has no effort to find a drift begins from what another has met.
