@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "evaluation/grade.h"
-#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -122,10 +121,7 @@ MethodComparison::Course MethodComparison::CourseOf(
     const Solution& solution) const {
   const std::vector<int> components = PoseComponents(solution.layout);
   const std::size_t stride = solution.states.size() / terms_.most_nodes + 1;
-  const Block* position = solution.layout.Find(BlockKind::kPosition);
-  Course course = {.method = solution.method,
-                   .has_position = position != nullptr && position->dim == 3 &&
-                                   components.front() == position->offset};
+  Course course = {solution.method};
   for (std::size_t k = 0; k < solution.states.size(); k += stride) {
     course.poses.push_back(PoseOf(solution.states[k]));
     course.variances.emplace_back(
@@ -170,52 +166,6 @@ std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
   }
   courses_.push_back(std::move(own));
   return found;
-}
-
-void MethodComparison::Judge(
-    const Course& taken, const Course& found,
-    std::vector<std::pair<std::string, Evidence>>* all) {
-  constexpr double kLimit = kUnusableBias * kUnusableBias;
-  const bool searches = MethodOf(found.method).Has(MethodTrait::kSearches);
-  if (!searches || !taken.has_position || !found.has_position ||
-      !AreAtTheSameTimes(taken.poses, found.poses)) {
-    return;
-  }
-  double sum = 0.0;
-  for (std::size_t k = 0; k < taken.poses.size(); ++k) {
-    const Eigen::Vector3d d = StateAt(taken.poses[k]).C_en().transpose() *
-                              (found.poses[k].p_e - taken.poses[k].p_e);
-    sum += (d.cwiseAbs2() + found.variances[k].head<3>())
-               .cwiseQuotient(taken.variances[k].head<3>())
-               .sum();
-  }
-  const double nees = sum / (3.0 * static_cast<double>(taken.poses.size()));
-  if (!(nees > kLimit)) return;
-  all->emplace_back(
-      taken.method,
-      Evidence{
-          .rule = "disagreement",
-          .grade = Grade::kDoubtful,
-          .what = fmt::format(
-              "{} finds errors of sensors by which positions are {:.2g} "
-              "sigma off (limit {:.0f})",
-              found.method, std::sqrt(nees), kUnusableBias),
-          .value = nees,
-          .limit = kLimit,
-          .unit = "1",
-          .causes = {"errors that last, which this method takes for noise"},
-          .better_methods = {found.method}});
-}
-
-std::vector<std::pair<std::string, Evidence>> MethodComparison::TooSure(
-    const std::string& method) const {
-  std::vector<std::pair<std::string, Evidence>> all;
-  if (courses_.empty() || courses_.back().method != method) return all;
-  for (std::size_t i = 0; i + 1 < courses_.size(); ++i) {
-    Judge(courses_[i], courses_.back(), &all);
-    Judge(courses_.back(), courses_[i], &all);
-  }
-  return all;
 }
 
 }  // namespace hindsight

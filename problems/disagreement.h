@@ -69,30 +69,16 @@ class MethodComparison {
   /// mean square over the interval. Solutions on other nodes say nothing.
   std::optional<Evidence> Compare(const Solution& solution);
 
-  /// Of the solution that was compared last beside all others, by method: one that
-  /// searches for errors of sensors (MethodTrait::kSearches) knows more than those that
-  /// take sensors at their word, and how large their errors are by it. These are
-  /// doubtful where the mean NEES of the position that it expects of them, an axis,
-  ///   mean_(k, i) (d_ki^2 + S_ki) / P_ki,
-  /// exceeds the square of kUnusableBias, d being how far they are apart, S its
-  /// variances and P theirs. Not of solutions on other nodes.
-  std::vector<std::pair<std::string, Evidence>> TooSure(
-      const std::string& method) const;
-
  private:
   /// Of position and attitude [m^2, rad^2].
   using Variances = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   struct Course {
     std::string method;
-    bool has_position = false;  ///< of which the variances come first
     std::vector<Pose> poses = {};
     std::vector<Variances> variances = {};
   };
 
   Course CourseOf(const Solution& solution) const;
-  /// Adds to TooSure.
-  static void Judge(const Course& taken, const Course& found,
-                    std::vector<std::pair<std::string, Evidence>>* all);
 
   ComparisonTerms terms_;
   std::vector<Course> courses_;

@@ -13,18 +13,18 @@ namespace hindsight {
 namespace {
 
 Evidence DoubtOfLast(const std::string& name, double t) {
-  return {
-      .grade = Grade::kDoubtful,
-      .what = fmt::format("the last fix of {}, at {:.1f} s, is taken for an "
-                          "outlier: no other sensor tells positions, and "
-                          "nothing behind it whether it is the others that "
-                          "have drifted away",
-                          name, t),
-      .t_begin = t,
-      .t_end = t,
-      .causes = {"an outlier, or an error that grows more slowly than the "
-                 "IMU shows, and ends"},
-      .remedies = {"a position that is known at the end"}};
+  return {.grade = Grade::kDoubtful,
+          .what = fmt::format(
+              "the last fix of {}, at {:.1f} s, is taken for an "
+              "outlier: no other sensor tells positions or velocities, and "
+              "nothing behind it whether it is the others that "
+              "have drifted away",
+              name, t),
+          .t_begin = t,
+          .t_end = t,
+          .causes = {"an outlier, or an error that grows more slowly than the "
+                     "IMU shows, and ends"},
+          .remedies = {"a position that is known at the end"}};
 }
 
 }  // namespace
@@ -64,17 +64,18 @@ void DoubtOutliersAtGaps(const Timeline& timeline,
     fixes[static_cast<std::size_t>(r.sensor)].push_back(
         {r.t, r.weight < kOutlier});
   }
+  const auto kind = [&](std::size_t i) { return timeline.sensors()[i].kind; };
   const auto is_positioning = [&](std::size_t i) {
-    return timeline.sensors()[i].kind->is_position && !fixes[i].empty();
+    return kind(i)->is_position && !fixes[i].empty();
   };
-  std::size_t positioning = 0;
+  std::size_t telling = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
-    positioning += is_positioning(i) ? 1 : 0;
+    telling += is_positioning(i) || (kind(i)->moves && !fixes[i].empty());
   }
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     if (!is_positioning(i)) continue;
     const Sensor& sensor = timeline.sensors()[i];
-    if (positioning == 1 && fixes[i].back().outlier) {
+    if (telling == 1 && fixes[i].back().outlier) {
       doubts->push_back(DoubtOfLast(sensor.name, fixes[i].back().t));
     }
     const RowAtGap row = LongestRowAtGap(fixes[i]);

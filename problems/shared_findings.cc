@@ -10,20 +10,6 @@ namespace {
 
 constexpr const char* kSearchRule = "search";
 
-/// What of it holds for another.
-std::vector<Evidence> HoldsFor(const Solution& taken, const Solution& found) {
-  std::vector<Evidence> all;
-  for (const Evidence& one : found.evidence) {
-    if (one.rule != kSearchRule || one.is_always_told) continue;
-    all.push_back(one);
-    all.back().what = found.method + ": " + one.what;
-  }
-  for (const auto& [method, evidence] : found.of_others) {
-    if (method == taken.method) all.push_back(evidence);
-  }
-  return all;
-}
-
 }  // namespace
 
 void ShareFindings(std::vector<Solution>* solutions) {
@@ -34,8 +20,11 @@ void ShareFindings(std::vector<Solution>* solutions) {
                             taken.usable() &&
                             taken.layout.Has(BlockKind::kPosition);
       if (!is_asked) continue;
-      for (Evidence& one : HoldsFor(taken, found)) {
-        AddEvidence(std::move(one), &taken);
+      for (const Evidence& one : found.evidence) {
+        if (one.rule != kSearchRule || one.is_always_told) continue;
+        Evidence shared = one;
+        shared.what = found.method + ": " + one.what;
+        AddEvidence(std::move(shared), &taken);
       }
     }
   }

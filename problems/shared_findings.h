@@ -7,11 +7,10 @@
 
 namespace hindsight {
 
-/// What a method that searches for errors of sensors (MethodTrait::kSearches) has found
-/// in a recording holds for all that see the whole interval, though they take the sensors
-/// at their word: they become doubtful, if they are usable, by what makes its own result
-/// doubtful, but for a search that was ended, and by what it says of them
-/// (Solution::of_others).
+/// What makes the result of a method that searches for errors of sensors
+/// (MethodTrait::kSearches) doubtful holds for all that see the whole interval, though
+/// they take the sensors at their word: they become doubtful by it, if they are usable.
+/// That a search was ended does not.
 void ShareFindings(std::vector<Solution>* solutions);
 
 }  // namespace hindsight

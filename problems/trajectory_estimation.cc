@@ -193,13 +193,6 @@ class TrajectoryEstimation final : public Estimation {
     if (auto apart = methods_.Compare(solution)) {
       AddEvidence(*std::move(apart), &solution);
     }
-    for (auto& [of, evidence] : methods_.TooSure(solution.method)) {
-      if (of != solution.method) {
-        solution.of_others.emplace_back(of, std::move(evidence));
-      } else if (solution.usable()) {
-        AddEvidence(std::move(evidence), &solution);
-      }
-    }
     return solution;
   }
 

@@ -101,8 +101,15 @@ ErrorParameters ParameterTuning::ClimbFinely() {
 ErrorParameters ParameterTuning::Moved(const Tunable& tunable,
                                        double by) const {
   ErrorParameters p = parameters_;
-  p.*tunable.member =
-      std::clamp(p.*tunable.member * std::exp(by), tunable.least, tunable.most);
+  double& value = p.*tunable.member;
+  value = std::clamp(value * std::exp(by), tunable.least, tunable.most);
+  if (tunable.member != &ErrorParameters::sigma) return p;
+  const auto down =
+      std::ranges::find(tunables_, &ErrorParameters::down, &Tunable::member);
+  if (down == tunables_.end()) return p;
+  // What errors are down stays: else the two would hold each other where they are.
+  p.down =
+      std::clamp(p.down * parameters_.sigma / p.sigma, down->least, down->most);
   return p;
 }
 
@@ -171,9 +178,7 @@ bool ParameterTuning::Walk(const Tunable& tunable, double step) {
   constexpr int kMost = 8;
   for (int i = 0; i < kMost; ++i) {
     if (IsSpent()) return i > 0;
-    ErrorParameters trial = parameters_;
-    trial.*tunable.member =
-        std::clamp(trial.*tunable.member * step, tunable.least, tunable.most);
+    const ErrorParameters trial = Moved(tunable, std::log(step));
     if (trial.*tunable.member == parameters_.*tunable.member) return i > 0;
     const double value = Value(trial);
     if (!(value > value_)) return i > 0;

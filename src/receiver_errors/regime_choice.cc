@@ -30,6 +30,20 @@ std::string AtBound(const Hypothesis& best, bool is_tolerance) {
   return "";
 }
 
+std::string AsStatedTimes(const ErrorParameters& p) {
+  return fmt::format(
+      "take the fixes for {:.2g}, the noise of the IMU for {:.2g} times as "
+      "stated",
+      p.scale, p.imu_scale);
+}
+
+/// Whether fixes scatter by less than half of what is stated, beside an IMU of less than
+/// half its noise: a stated sigma has slow errors in it, and whose they are nothing tells.
+bool IsHeldByStated(const ErrorParameters& p) {
+  constexpr double kHalf = 1.0 / kMisstatedImu;
+  return p.scale < kHalf && p.imu_scale < kHalf;
+}
+
 /// The clause for a loss on held-out stretches; "" if there is none.
 std::string LossTo(const RegimeProblem& problem, const ErrorRegimes& one,
                    const ErrorRegimes& simpler) {
@@ -55,10 +69,10 @@ std::string Objection(const RegimeProblem& problem,
   const std::string bound = AtBound(best, problem.is_tolerance);
   if (!bound.empty()) return "have " + bound + " at its bound";
   if (one.kind == Kind::kWhite && !CanBeSolved(best.parameters)) {
-    return fmt::format(
-        "take the fixes for {:.2g}, the noise of the IMU for {:.2g} times as "
-        "stated",
-        best.parameters.scale, best.parameters.imu_scale);
+    return AsStatedTimes(best.parameters);
+  }
+  if (one.kind == Kind::kGaussMarkov && IsHeldByStated(best.parameters)) {
+    return AsStatedTimes(best.parameters);
   }
   for (const ErrorRegimes& simpler : all) {
     if (simpler.kind >= one.kind || simpler.kind > Kind::kWhite) continue;

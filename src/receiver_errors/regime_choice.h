@@ -44,6 +44,9 @@ struct RegimeChoice {
 ///   - if it is white, is what the batch can be solved with (CanBeSolved): with
 ///     an IMU worse than stated by more than kMisstatedImu it is no matter of
 ///     this sensor, and with better fixes nothing that is made use of;
+///   - if it is Gauss-Markov, has fixes or the IMU at half of what is stated at least: a
+///     stated sigma has slow errors in it, and where both are better nothing tells whose
+///     what is slow is;
 ///   - does not lose to the stated noise, nor, if it is not white, to white
 ///     errors on held-out stretches (CompareHeldOut, at any length).
 RegimeChoice ChooseRegime(const RegimeProblem& problem,

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "state/covariance_series.h"
@@ -95,8 +94,6 @@ struct Solution {
   Grade grade = Grade::kUsable;
   std::vector<Evidence> evidence;  ///< what `grade` is concluded from
   std::string verdict;             ///< in words: the grade, and why
-  /// What it says of methods that were judged before it, by name.
-  std::vector<std::pair<std::string, Evidence>> of_others;
 
   bool usable() const { return grade == Grade::kUsable; }
 };

@@ -65,21 +65,5 @@ TEST(ShareFindings, ASearchThatWasEndedSaysNothing) {
   EXPECT_TRUE(all[0].usable());
 }
 
-/// Of methods that are usable, and of no other.
-TEST(ShareFindings, WhatTheSearchSaysOfAMethodIsAddedToIt) {
-  std::vector<Solution> all = {Solved("batch"), Solved("rts"),
-                               Solved("robust_batch")};
-  all[2].of_others.emplace_back(
-      "batch", Evidence{.rule = "disagreement", .grade = Grade::kDoubtful});
-  all[2].of_others.emplace_back(
-      "rts", Evidence{.rule = "disagreement", .grade = Grade::kDoubtful});
-  all[1].grade = Grade::kUnusable;
-  ShareFindings(&all);
-  EXPECT_EQ(all[0].grade, Grade::kDoubtful);
-  EXPECT_EQ(all[1].grade, Grade::kUnusable);
-  EXPECT_TRUE(all[1].evidence.empty());
-  EXPECT_TRUE(all[2].usable());
-}
-
 }  // namespace
 }  // namespace hindsight

@@ -113,6 +113,19 @@ TEST(FollowBias, LeavesAnErrorSidewaysItsTime) {
   EXPECT_GT(told.range.expected.tau, 60.0);
 }
 
+/// Nor does what errs down alone err sideways.
+TEST(FollowBias, LeavesTheOtherAxesToAnErrorDown) {
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  const Told told = TellOf(TapeWithErrors(kFixSigma / 50.0, 60.0,
+                                          OfPositions(300.0, kFixSigma), 250.0),
+                           from);
+  const ErrorParameters& p = told.range.likeliest;
+  EXPECT_LT(p.sigma, kFixSigma);
+  EXPECT_GT(p.down * p.sigma, 2.0 * kFixSigma);
+}
+
 TEST(FollowBias, ExpectsTheVarianceOfTheMean) {
   ErrorParameters from;
   from.sigma = kFixSigma;

@@ -51,6 +51,30 @@ TEST(RegimeChoice, NeedsOddsOfAThousand) {
   }
 }
 
+/// A stated sigma has slow errors in it: beside fixes and an IMU that are both better than
+/// stated nothing tells whose what is slow is.
+TEST(RegimeChoice, GaussMarkovErrorsNeedFixesOrAnImuAsStated) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const auto choose = [&](double scale, double imu_scale) {
+    ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, 20.0);
+    slow.hypotheses[0].parameters.scale = scale;
+    slow.hypotheses[0].parameters.imu_scale = imu_scale;
+    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                                  Regime(tape, Kind::kWhite, 1.0), slow});
+  };
+  EXPECT_EQ(choose(0.6, 0.1).chosen, 2u);
+  EXPECT_EQ(choose(0.2, 0.6).chosen, 2u);
+  const RegimeChoice refused = choose(0.2, 0.1);
+  EXPECT_EQ(refused.chosen, 0u);
+  EXPECT_THAT(refused.refused,
+              ElementsAre("Gauss-Markov errors do not stand: they take the "
+                          "fixes for 0.2, the noise of the IMU for 0.1 times "
+                          "as stated"));
+}
+
 TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
   const LinearTape tape = TapeOf(PositionsOnly(30.0));
   SearchEffort effort(1e9, nullptr);
