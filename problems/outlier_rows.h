@@ -31,8 +31,7 @@ RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes);
 /// would agree with the fixes before them, may be the right ones: of each sensor of
 /// positions that has such a doubt is added; where no other tells positions or velocities
 /// also if the very last fix is an outlier, as an error that grows slowly is seen where it
-/// ends. Outliers have a
-/// weight below a half.
+/// ends. Outliers have a weight below a half.
 void DoubtOutliersAtGaps(const Timeline& timeline,
                          const std::vector<ResidualRecord>& residuals,
                          std::vector<Evidence>* doubts);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kRidgeStep = 2.0;  // of tau
 
-/// Of a bias, with the likeliest sigma of a tau, and factor on the noise of the IMU.
+/// Of a bias, with the likeliest sigma, sigma down and factor on the noise of the IMU of a
+/// tau.
 struct RidgePoint {
   ErrorParameters parameters;
   double value = 0.0;  ///< ln of the posterior

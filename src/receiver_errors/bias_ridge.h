@@ -26,8 +26,8 @@ struct BiasRange {
 /// times: what is slower the IMU's biases and the start take up, so that sigma and tau
 /// may both be much larger, and the noise of the IMU the smaller the more of what is slow
 /// is the sensor's. `found` is followed along that ridge, by factors of two of tau each
-/// with its likeliest sigma and factor on that noise, to where odds are a thousand
-/// against it.
+/// with its likeliest sigma, sigma down and factor on that noise, to where odds are a
+/// thousand against it.
 BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
                      const ErrorParameters& found, const ErrorParameters& from,
                      SearchEffort* effort = nullptr);

@@ -15,7 +15,8 @@ inline constexpr double kDriftWalk = 1e-3;
 /// Over an interval, an axis:
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
-/// w_e down having so many times that sigma, and a jump of the velocity of variance q_vv where it begins.
+/// and a jump of the velocity of variance q_vv where it begins. Down, the third axis, w_e
+/// has `down` times the sigma of the others.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;
   double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;
