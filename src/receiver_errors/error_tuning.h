@@ -19,9 +19,11 @@ namespace hindsight {
 ///   IMU          1, a factor of 3 (stated is the noise of an IMU at rest, to
 ///                which vibration adds, or that of the vibration, which integrates
 ///                to less); sought within 0.01 to 100, from 1 on where the
-///                sensor errs throughout
+///                sensor errs throughout in several parts
 ///   outliers     2 % of 10 times the sigma, a factor of 4.5 each
 ///   slight bias  as `from` says, a factor of 2.7
+///   bias down    that of the other axes, a factor of 3; of a sequence with one
+///                bias and no other error, else the same
 ///   the rest     as `from` says, a factor of 10
 ///
 /// A fix is a mixture of two normal densities about the innovation, inlier and

@@ -31,6 +31,7 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
   }
   // What is slow is the IMU's or the receiver's: where it errs throughout in several
   // parts nothing but the stated noise tells. Of one error FollowBias asks both.
+  // Several biases have one sigma for all axes.
   const bool is_one = biased && !slight && !drifting && parts <= 1;
   if (!good && !is_one) out.back().least = 1.0;
   if (biased) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -157,6 +158,22 @@ TEST(TuneParameters, LeaveAnImuAsStatedWhereErrorsFollowEachOtherThroughout) {
   EXPECT_EQ(TuneParameters({tape, 0}, biased, of_white).imu_scale, 1.0);
   biased.back() = {ErrorMode::kGood};
   EXPECT_LT(TuneParameters({tape, 0}, biased, {}).imu_scale, 1.0);
+}
+
+TEST(TunablesOf, OneBiasHasASigmaDownOfItsOwn) {
+  const auto has_down = [](const ModeSequence& sequence) {
+    return std::ranges::count(TunablesOf(sequence, {}), &ErrorParameters::down,
+                              &Tunable::member) == 1;
+  };
+  ModeSequence sequence(9);
+  EXPECT_FALSE(has_down(sequence));
+  for (std::size_t i = 3; i < 6; ++i) sequence[i].mode = ErrorMode::kBiased;
+  sequence[3].anew = true;
+  EXPECT_TRUE(has_down(sequence));
+  sequence[5].anew = true;
+  EXPECT_FALSE(has_down(sequence));
+  sequence[5] = {ErrorMode::kSlight};
+  EXPECT_FALSE(has_down(sequence));
 }
 
 /// Also of data that say nothing, in which the priors are all that is integrated.
