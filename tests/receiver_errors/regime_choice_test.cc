@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/uniform_regimes.h"
 
@@ -11,10 +13,13 @@ namespace {
 
 using testing::AddError;
 using ::testing::DoubleEq;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::FieldsAre;
 using testing::Good;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
@@ -65,7 +70,13 @@ TEST(RegimeChoice, GaussMarkovErrorsNeedFixesOrAnImuAsStated) {
     return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
                                   Regime(tape, Kind::kWhite, 1.0), slow});
   };
-  EXPECT_EQ(choose(0.6, 0.1).chosen, 2u);
+  EXPECT_EQ(choose(1.0, 1.0).chosen, 2u);
+  // Of one alone it may be said that it predicts worse.
+  for (const auto& [scale, imu_scale] :
+       {std::pair{0.6, 0.1}, std::pair{0.2, 0.6}}) {
+    EXPECT_THAT(choose(scale, imu_scale).refused,
+                Each(Not(HasSubstr("take the fixes"))));
+  }
   const RegimeChoice refused = choose(0.2, 0.1);
   EXPECT_EQ(refused.chosen, 0u);
   EXPECT_THAT(refused.refused,
