@@ -13,7 +13,6 @@
 #include "evaluation/series_fold.h"
 #include "problems/method.h"
 #include "problems/reconstruction.h"
-#include "problems/shared_findings.h"
 
 namespace hindsight {
 namespace {

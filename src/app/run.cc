@@ -29,7 +29,6 @@
 #include "io/write/summary.h"
 #include "measurements/sensor_kind.h"
 #include "problems/method.h"
-#include "problems/shared_findings.h"
 
 namespace hindsight {
 namespace {

@@ -35,6 +35,7 @@ void PassOnDisagreement(const Judged& judged, std::vector<Evidence>* evidence) {
   if (judged.disagreement) evidence->push_back(*judged.disagreement);
 }
 
+constexpr const char* kSearchRule = "search";
 constexpr const char* kLinearisationRule = "linearisation";
 /// Methods that end with a linearisation about their own result, best first.
 constexpr const char* kRelinearising[] = {"batch", "iterated", "robust_batch"};
@@ -44,7 +45,7 @@ constexpr GradeRule kRules[] = {
     {"clock", FindUnsettledClock},
     {"recording", PassOnRecording},
     {"rival", FindLikelyRival},
-    {"search", PassOnDoubts},
+    {kSearchRule, PassOnDoubts},
     {kLinearisationRule, FindLinearisedFarOff},
     {"curvature", FindCurvedErrors},
     {"disagreement", PassOnDisagreement},
@@ -242,6 +243,23 @@ void ShareDisagreements(std::vector<Solution>* solutions) {
       if (solution.method != method || knows) continue;
       AddEvidence(evidence, &solution);
     }
+  }
+}
+
+void ShareFindings(std::vector<Solution>* solutions) {
+  std::vector<Evidence> found;
+  for (const Solution& solution : *solutions) {
+    for (const Evidence& one : solution.evidence) {
+      if (one.rule != kSearchRule || one.is_always_told) continue;
+      found.push_back(one);
+      found.back().what = solution.method + ": " + one.what;
+    }
+  }
+  for (Solution& solution : *solutions) {
+    const bool is_asked = !solution.forward && solution.usable() &&
+                          solution.layout.Has(BlockKind::kPosition);
+    if (!is_asked) continue;
+    for (const Evidence& one : found) AddEvidence(one, &solution);
   }
 }
 

@@ -134,6 +134,11 @@ void AddEvidence(Evidence evidence, Solution* solution);
 /// is judged.
 void ShareDisagreements(std::vector<Solution>* solutions);
 
+/// What a search for errors of sensors (the rule `search`) is doubtful by holds for all
+/// methods that see the whole interval, though they take the sensors at their word: they
+/// become doubtful by it, if they are usable. That a search was ended does not.
+void ShareFindings(std::vector<Solution>* solutions);
+
 /// Index of the best of several solutions of one recording: the best grade; of
 /// equal ones the least evidence against it; then the order of `preference`,
 /// the names of methods, best first. No truth is looked at. -1 if there are

@@ -14,7 +14,7 @@ namespace {
 /// steps would leave the problem singular.
 constexpr double kNoError = 1e-3;
 
-/// Of e at the first node [m]; 0 where the receiver is good there.
+/// Sigmas of e at the first node [m]; 0 where the receiver is good there.
 Eigen::Vector3d FirstSigma(ErrorMode first, const ErrorParameters& p) {
   switch (first) {
     case ErrorMode::kGood:

@@ -25,8 +25,8 @@ class ErrorStates {
   /// their steps, and gives the sensor's fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
 
-  /// In a problem that was extended so, gives e the sigma and correlation time of
-  /// `other`, by which the steps of e are those of a Gauss-Markov error throughout.
+  /// In a problem that was extended so, gives e the sigmas and the correlation time of
+  /// `other`.
   void Replace(const ErrorParameters& other, Problem* problem) const;
 
   /// The smoothed trajectory of the hypothesis, over the extended layout.

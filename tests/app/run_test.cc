@@ -554,5 +554,31 @@ TEST_F(RunCommandTest, AResolvedConfigurationRunsToTheSameBytes) {
   }
 }
 
+/// A lone receiver that errs by 1 m for half a minute: `batch` is wrong and finds nothing
+/// odd, the search says that it errs or does not.
+TEST(RunCommand, IsNotUsableBesideASearchThatDoubtsIt) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(Hindsight({"simulate", "test_car", "--seed=340", "--duration=30",
+                       "--out=drive", "--quiet"},
+                      folder.path())
+                .status,
+            0);
+  const auto run = [&folder](const std::string& methods) {
+    return Hindsight(
+               {"run", "drive/config.yaml", "--methods=" + methods,
+                "--without=odometer", "--seed=340", "--out=out", "--force",
+                "--inject=gnss:multipath=1m,from=0s,to=2000s,tau=50s,axes=ned"},
+               folder.path())
+        .status;
+  };
+  EXPECT_EQ(run("batch"), 0);
+  EXPECT_EQ(run("batch,robust_batch"), 3);
+  const nlohmann::json batch = nlohmann::json::parse(
+      ReadFile(folder.path() / "out/summary.json"))["methods"]["batch"];
+  EXPECT_THAT(batch["verdict"].get<std::string>(),
+              StartsWith("doubtful: robust_batch: "));
+  EXPECT_THAT(batch["nees"]["position"].get<double>(), Gt(30.0));
+}
+
 }  // namespace
 }  // namespace hindsight

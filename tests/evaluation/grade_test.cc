@@ -476,6 +476,49 @@ TEST(ShareDisagreements, TellsBothMethods) {
   }
 }
 
+Solution WithPositions(const std::string& method) {
+  Solution solution;
+  solution.method = method;
+  solution.layout = TypicalLayout();
+  return solution;
+}
+
+TEST(ShareFindings, WhatASearchDoubtsHoldsForAllThatSeeTheWholeInterval) {
+  std::vector<Solution> all = {WithPositions("batch"), WithPositions("ekf"),
+                               WithPositions("robust_batch"),
+                               WithPositions("rts")};
+  all[1].forward = true;
+  ShareFindings(&all);
+  for (const Solution& one : all) EXPECT_TRUE(one.usable()) << one.method;
+  AddEvidence(
+      {.rule = "search", .grade = Grade::kDoubtful, .what = "gnss errs"},
+      &all[2]);
+  for (int twice = 0; twice < 2; ++twice) {
+    ShareFindings(&all);
+    EXPECT_EQ(all[0].grade, Grade::kDoubtful);
+    ASSERT_EQ(all[0].evidence.size(), 1u);
+    EXPECT_THAT(all[0].verdict,
+                StartsWith("doubtful: robust_batch: gnss errs"));
+    EXPECT_TRUE(all[1].usable());
+    EXPECT_EQ(all[2].evidence.size(), 1u);
+    EXPECT_EQ(all[3].grade, Grade::kDoubtful);
+  }
+}
+
+/// Nor does any other rule tell of other methods.
+TEST(ShareFindings, ASearchThatWasEndedSaysNothing) {
+  std::vector<Solution> all = {WithPositions("batch"),
+                               WithPositions("robust_batch")};
+  AddEvidence({.rule = "search",
+               .grade = Grade::kDoubtful,
+               .what = "was ended",
+               .is_always_told = true},
+              &all[1]);
+  AddEvidence({.rule = "linearisation", .grade = Grade::kDoubtful}, &all[1]);
+  ShareFindings(&all);
+  EXPECT_TRUE(all[0].usable());
+}
+
 TEST(FailedSolution, IsNotUsableForItsReason) {
   const Solution failed = FailedSolution("hinf", "the filter diverged");
   EXPECT_EQ(failed.grade, Grade::kUnusable);

@@ -305,7 +305,7 @@ TEST(RobustBatch, DoubtsNoiseBesideWhichAnErrorIsAboutAsLikely) {
   EXPECT_TRUE(std::ranges::any_of(solution.evidence, [](const Evidence& one) {
     return one.what.find("m off: left: as stated; or else") !=
                std::string::npos &&
-           one.what.find("biased from 50 to 110 s by 1.") != std::string::npos;
+           one.what.ends_with("biased from 50 to 110 s by 1.4 m");
   })) << solution.verdict;
 }
 
