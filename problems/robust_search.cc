@@ -9,6 +9,7 @@
 #include "measurements/sensor_kind.h"
 #include "problems/blunders.h"
 #include "problems/clock_choice.h"
+#include "problems/open_biases.h"
 #include "problems/outlier_rows.h"
 #include "problems/rough_trajectory.h"
 #include "problems/solution_builder.h"
@@ -56,14 +57,17 @@ RobustBatchOptions OptionsOf(const MethodStage& stage,
           .until = end};
 }
 
-/// The plain batch.
-Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes) {
+/// The plain batch, with covariances of what was not decided.
+Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes,
+                      const SearchDecisions& decisions) {
   BatchResult result =
       SolveBatch(*nodes.states, stage->MakeBatchOptions(), nodes.problem);
   Solution solution =
       stage->FromSmoothed(std::move(result.states), std::move(result.P), nodes);
   solution.iterations = result.iterations;
   solution.converged = result.converged;
+  WidenByOpenBiases(decisions, *nodes.problem, solution.states,
+                    &solution.covariances);
   stage->JudgeHeading(solution, nodes);
   return solution;
 }
@@ -82,6 +86,8 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
                 .variances = VariancesOf(solution.layout, solution.covariances),
                 .smoother = {}},
                &result.problem, stage->forward().Progress("grading")));
+  WidenByOpenBiases(searched->decisions, result.problem, solution.states,
+                    &solution.covariances);
   DoubtOutliersAtGaps(timeline, solution.residuals, doubts);
   searched->erring.clear();
   std::size_t record = 0;
@@ -200,7 +206,7 @@ Solution SolveRobustly(MethodStage* stage, const MethodStage::Nodes& nodes,
   }
   Solution solution =
       result.stands ? TakeRobust(std::move(result), stage, searched, &doubts)
-                    : SolvePlainly(stage, nodes);
+                    : SolvePlainly(stage, nodes, searched->decisions);
   stage->SetDoubts(std::move(doubts));
   return solution;
 }
@@ -215,7 +221,7 @@ Solution SearchAtOwnNodes(MethodStage* stage, RobustSearch* searched) {
              &nodes.problem->decisions);
     const bool plain = searched->done && !searched->stands;
     const int placed = searched->placed;
-    Solution one = plain ? SolvePlainly(stage, nodes)
+    Solution one = plain ? SolvePlainly(stage, nodes, searched->decisions)
                          : SolveRobustly(stage, nodes, searched);
     if (searched->placed > placed) return one;
     one.notes = searched->notes;

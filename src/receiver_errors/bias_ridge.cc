@@ -11,7 +11,7 @@
 namespace hindsight {
 namespace {
 
-constexpr double kRidgeStep = 2.0;  // of tau
+constexpr double kRidgeStep = 4.0;  // of tau
 
 /// Of a bias, with the likeliest sigma, sigma down and factor on the noise of the IMU of a
 /// tau.
@@ -30,7 +30,7 @@ RidgePoint PointAt(const ErrorParameters& p, ParameterTuning* tuning) {
 /// The points with a tau `step` times that of the one before, `found` the first.
 std::vector<RidgePoint> PointsFrom(const ErrorParameters& found, double step,
                                    ParameterTuning* tuning) {
-  constexpr int kMost = 12;
+  constexpr int kMost = 8;
   std::vector<RidgePoint> ridge;
   double best = tuning->Value(found);
   ErrorParameters p = found;
@@ -47,29 +47,151 @@ std::vector<RidgePoint> PointsFrom(const ErrorParameters& found, double step,
   return ridge;
 }
 
-/// Between the points of a ridge of falling tau where `measure` of the parameters, which
-/// falls with it, is `wanted`; at its ends beyond them.
-template <typename Measure>
-ErrorParameters PointWhere(const std::vector<RidgePoint>& falling,
-                           const Measure& measure, double wanted) {
-  for (std::size_t i = 1; i < falling.size(); ++i) {
-    const ErrorParameters& above = falling[i - 1].parameters;
-    ErrorParameters p = falling[i].parameters;
-    const double most = measure(above);
-    const double least = measure(p);
-    if (least > wanted || most <= least) continue;
-    const double part = std::log(wanted / least) / std::log(most / least);
-    for (double ErrorParameters::*member :
-         {&ErrorParameters::tau, &ErrorParameters::sigma,
-          &ErrorParameters::down, &ErrorParameters::imu_scale}) {
-      p.*member *= std::pow(above.*member / p.*member, part);
+/// The posterior at a sigma of a tau.
+struct Sample {
+  double log_sigma = 0.0;
+  double value = 0.0;  ///< ln of it
+};
+
+/// Samples beside a point of the ridge, of sigmas larger (`sign` 1) or smaller (-1), until
+/// the posterior is `least`. What errs down stays as it is.
+std::vector<Sample> Beside(const RidgePoint& at, double sign, double least,
+                           const ParameterTuning& tuning) {
+  constexpr double kStep = 0.35;  // of ln sigma
+  constexpr double kWidest = 4.0 * kStep;
+  constexpr double kSteep = 2.0;
+  constexpr double kFlat = 0.5;
+  constexpr int kMost = 32;
+  const Tunable& sigma = tuning.TunableOf(&ErrorParameters::sigma);
+  const Tunable& down = tuning.TunableOf(&ErrorParameters::down);
+  std::vector<Sample> samples;
+  double step = kStep;
+  double u = 0.0;
+  double before = at.value;
+  for (int i = 0; i < kMost && !tuning.IsSpent(); ++i) {
+    ErrorParameters p = at.parameters;
+    p.sigma *= std::exp(sign * (u + step));
+    if (p.sigma < sigma.least || p.sigma > sigma.most) break;
+    p.down = std::clamp(p.down * at.parameters.sigma / p.sigma, down.least,
+                        down.most);
+    const double value = tuning.Value(p);
+    const double fall = before - value;
+    if (samples.empty() && fall > kSteep && step > 0.01 * kStep) {
+      step /= 3.0;
+      continue;
     }
-    return p;
+    if (value < least) break;
+    samples.push_back({.log_sigma = std::log(p.sigma), .value = value});
+    u += step;
+    before = value;
+    if (fall < kFlat) step = std::min(2.0 * step, kWidest);
   }
-  return falling.back().parameters;
+  return samples;
 }
 
-double SigmaOf(const ErrorParameters& p) { return p.sigma; }
+/// By ascending sigma.
+std::vector<Sample> Across(const RidgePoint& at, double least,
+                           const ParameterTuning& tuning) {
+  std::vector<Sample> samples = Beside(at, -1.0, least, tuning);
+  std::ranges::reverse(samples);
+  samples.push_back(
+      {.log_sigma = std::log(at.parameters.sigma), .value = at.value});
+  std::ranges::move(Beside(at, 1.0, least, tuning),
+                    std::back_inserter(samples));
+  return samples;
+}
+
+/// What a sample stands for in ln sigma, by the trapezoid rule; of a single one a step
+/// that is as good as any.
+double WidthOf(const std::vector<Sample>& samples, std::size_t i) {
+  const std::size_t before = i > 0 ? i - 1 : i;
+  const std::size_t after = i + 1 < samples.size() ? i + 1 : i;
+  constexpr double kSingle = 1e-3;
+  if (before == after) return kSingle;
+  return 0.5 * (samples[after].log_sigma - samples[before].log_sigma);
+}
+
+/// The ridge at a tau; at its ends beyond them. `falling` in tau.
+ErrorParameters PointAtTau(const std::vector<RidgePoint>& falling, double tau) {
+  const auto below = std::ranges::find_if(
+      falling,
+      [tau](const RidgePoint& one) { return one.parameters.tau <= tau; });
+  if (below == falling.begin()) return falling.front().parameters;
+  if (below == falling.end()) return falling.back().parameters;
+  ErrorParameters p = below->parameters;
+  const ErrorParameters& above = std::prev(below)->parameters;
+  const double part = std::log(tau / p.tau) / std::log(above.tau / p.tau);
+  for (double ErrorParameters::*member :
+       {&ErrorParameters::tau, &ErrorParameters::sigma, &ErrorParameters::down,
+        &ErrorParameters::imu_scale}) {
+    p.*member *= std::pow(above.*member / p.*member, part);
+  }
+  return p;
+}
+
+/// Integrals over ln sigma and ln tau of the posterior, by its greatest value on the
+/// ridge.
+struct Integrals {
+  void Add(double weight, const ErrorParameters& p, double duration) {
+    const double of_mean = weight * VarianceOfMean(p, duration);
+    one += weight;
+    log_sigma += weight * std::log(p.sigma);
+    log_tau += weight * std::log(p.tau);
+    variance += of_mean;
+    variance_log_tau += of_mean * std::log(p.tau);
+  }
+
+  double one = 0.0;
+  double log_sigma = 0.0;
+  double log_tau = 0.0;
+  double variance = 0.0;          ///< of the mean
+  double variance_log_tau = 0.0;  ///< of their product
+};
+
+/// By the prior of a bias, and by that of a slight one.
+struct BothIntegrals {
+  Integrals biased;
+  Integrals slight;
+};
+
+/// The density of ln sigma a priori of a slight bias by that of a bias.
+double SlightByBiased(const Tunable& biased, double sigma) {
+  Tunable slight = biased;
+  slight.spread = kSpreadOfSlight;
+  const auto log_density = [sigma](const Tunable& one) {
+    const double z = std::log(sigma / one.typical) / one.spread;
+    return -0.5 * z * z - LogOfIntegral(PriorCurvature(one));
+  };
+  return std::exp(log_density(slight) - log_density(biased));
+}
+
+BothIntegrals Integrate(const std::vector<RidgePoint>& ridge, double best,
+                        double duration, const ParameterTuning& tuning) {
+  const Tunable& biased = tuning.TunableOf(&ErrorParameters::sigma);
+  BothIntegrals sums;
+  for (const RidgePoint& at : ridge) {
+    const std::vector<Sample> samples = Across(at, best - kLeastGain, tuning);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double weight = std::exp(samples[i].value - best) *
+                            WidthOf(samples, i) * std::log(kRidgeStep);
+      ErrorParameters p = at.parameters;
+      p.sigma = std::exp(samples[i].log_sigma);
+      sums.biased.Add(weight, p, duration);
+      sums.slight.Add(weight * SlightByBiased(biased, p.sigma), p, duration);
+    }
+  }
+  return sums;
+}
+
+/// BiasRange::expected.
+ErrorParameters ExpectedOf(const Integrals& sum,
+                           const std::vector<RidgePoint>& ridge,
+                           double duration) {
+  ErrorParameters p =
+      PointAtTau(ridge, std::exp(sum.variance_log_tau / sum.variance));
+  p.sigma *= std::sqrt(sum.variance / sum.one / VarianceOfMean(p, duration));
+  return p;
+}
 
 }  // namespace
 
@@ -85,27 +207,24 @@ BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
   const RidgePoint& best =
       *std::ranges::max_element(ridge, {}, &RidgePoint::value);
   const double duration = tape.t(tape.size() - 1) - tape.t(0);
-  const auto variance = [duration](const ErrorParameters& p) {
-    return VarianceOfMean(p, duration);
-  };
-  double sum = 0.0;
-  double sum_logs = 0.0;
-  double sum_variances = 0.0;
-  for (const RidgePoint& one : ridge) {
-    const double weight = std::exp(one.value - best.value);
-    sum += weight;
-    sum_logs += weight * std::log(one.parameters.sigma);
-    sum_variances += weight * variance(one.parameters);
+  const auto [sum, slight] = Integrate(ridge, best.value, duration, tuning);
+  BiasRange range;
+  range.likeliest = best.parameters;
+  range.mean = PointAtTau(ridge, std::exp(sum.log_tau / sum.one));
+  range.mean.sigma = std::exp(sum.log_sigma / sum.one);
+  range.expected = ExpectedOf(sum, ridge, duration);
+  range.slight = {.expected = ExpectedOf(slight, ridge, duration),
+                  .log_gain = std::log(slight.one / sum.one)};
+  range.log_gain = std::log(sum.one);
+  for (double ErrorParameters::*member :
+       {&ErrorParameters::tau, &ErrorParameters::sigma}) {
+    const Tunable& tunable = tuning.TunableOf(member);
+    range.log_gain -=
+        LogOfIntegral(PriorCurvature(tunable)) + LogOfPriorWithin(tunable) +
+        tuning.LogShareOfPrior(member, range.likeliest, best.value);
   }
-  BiasRange range{.likeliest = best.parameters,
-                  .mean = PointWhere(ridge, SigmaOf, std::exp(sum_logs / sum)),
-                  .expected = PointWhere(ridge, variance, sum_variances / sum)};
-  const double prior =
-      LogOfIntegral(PriorCurvature(tuning.TunableOf(&ErrorParameters::tau)));
-  const double at_point = tuning.LogShareOfPrior(&ErrorParameters::tau,
-                                                 range.likeliest, best.value);
-  range.log_gain =
-      std::max(0.0, std::log(sum * std::log(kRidgeStep)) - prior - at_point);
+  // What was not followed to its end is larger.
+  if (tuning.IsSpent()) range.log_gain = std::max(0.0, range.log_gain);
   return range;
 }
 

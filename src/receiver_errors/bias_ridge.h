@@ -6,28 +6,37 @@
 
 namespace hindsight {
 
+/// What the data tell of a bias that lasts, were it of the size of what is stated: with the
+/// prior of a slight one. A stated sigma has slow errors in it.
+struct SlightBias {
+  ErrorParameters expected;  ///< as BiasRange::expected
+  double log_gain = 0.0;     ///< ln of the evidence over that as a bias
+};
+
 /// What the data tell of a bias that lasts.
 struct BiasRange {
   ErrorParameters likeliest;
-  /// With the mean of ln sigma a posteriori, and the likeliest tau of it. The mean
-  /// square hangs on what is least likely of all, the far end of the ridge, and takes
-  /// from fixes what they tell.
+  /// With the means of ln sigma and ln tau a posteriori. The mean square hangs on what is
+  /// least likely of all, the far end of the ridge, and takes from fixes what they tell.
   ErrorParameters mean;
   /// Of which the mean of the bias over the recording has the variance (VarianceOfMean)
-  /// that is expected a posteriori. Where nothing else tells positions that mean is what
-  /// nobody sees: covariances of `mean` would be too small by as much as is left open.
+  /// that is expected a posteriori, with the mean of ln tau by what each adds to it. Where
+  /// nothing else tells positions that mean is what nobody sees: covariances of `mean`
+  /// would be too small by as much as is left open.
   ErrorParameters expected;
-  /// ln of the integral of the posterior over tau along the ridge, by what
-  /// LogShareOfPrior takes it for at fixed sigma.
+  SlightBias slight;
+  /// ln of the integral of the posterior over sigma and tau, by what LogShareOfPrior takes
+  /// it for at `likeliest`, of each by itself.
   double log_gain = 0.0;
 };
 
 /// Of an error that changes slowly only 2 sigma^2 / tau is seen, its walk over short
 /// times: what is slower the IMU's biases and the start take up, so that sigma and tau
 /// may both be much larger, and the noise of the IMU the smaller the more of what is slow
-/// is the sensor's. `found` is followed along that ridge, by factors of two of tau each
-/// with its likeliest sigma, sigma down and factor on that noise, to where odds are a
-/// thousand against it.
+/// is the sensor's. `found` is followed along that ridge, by factors of four of tau each
+/// with its likeliest sigma, sigma down and factor on that noise, and across it, in sigma
+/// alone, to where odds are a thousand against it: of an error that noise hides the
+/// posterior is no ridge, but falls off where sigma is too large.
 BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
                      const ErrorParameters& found, const ErrorParameters& from,
                      SearchEffort* effort = nullptr);

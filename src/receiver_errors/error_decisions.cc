@@ -5,6 +5,7 @@
 
 #include "measurements/magnetic_field.h"
 #include "measurements/sensor_kind.h"
+#include "receiver_errors/error_states.h"
 #include "receiver_errors/sensor_findings.h"
 #include "receiver_errors/sensor_tape.h"
 
@@ -59,6 +60,26 @@ std::set<int> UsedPositions(const Timeline& timeline, const LinearTape& tape) {
 
 std::size_t SensorOf(const ErrorDecisions& decisions) {
   return static_cast<std::size_t>(decisions.sensor);
+}
+
+bool HasOpenBias(const ErrorDecisions& decisions) {
+  return decisions.open.has_value();
+}
+
+double ExtendByOpenBias(const ErrorDecisions& decisions, const LinearTape& tape,
+                        Problem* problem) {
+  if (!HasOpenBias(decisions) ||
+      problem->layout.Has(BlockKind::kSensorError, decisions.sensor)) {
+    return 0.0;
+  }
+  WeighedHypothesis throughout;
+  throughout.parameters = decisions.open->expected;
+  throughout.steps.assign(tape.size(), {.mode = ErrorMode::kBiased});
+  throughout.steps.front().anew = true;
+  ErrorStates(tape, decisions.sensor, decisions.stated_sigma, decisions.unit,
+              ErrorRegimes::Kind::kGaussMarkov, throughout)
+      .AddError(problem);
+  return 1.0 / (1.0 + std::exp(-decisions.open->log_odds));
 }
 
 ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,

@@ -291,6 +291,7 @@ ErrorRegimes RefineAtFixes(const RegimeProblem& problem,
   ErrorRegimes out;
   out.kind = found.kind;
   out.expected = found.expected;
+  out.slight = found.slight;
   if (found.kind == ErrorRegimes::Kind::kSwitching) {
     out.hypotheses =
         RefineHypotheses(problem.tape, parameters, all, problem.effort);

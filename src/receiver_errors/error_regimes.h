@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "receiver_errors/bias_ridge.h"
 #include "receiver_errors/hypothesis_search.h"
 #include "receiver_errors/normal_points.h"
 #include "receiver_errors/sensor_tape.h"
@@ -29,6 +30,8 @@ struct ErrorRegimes {
   /// Of kGaussMarkov, with sigma and tau by which covariances are told: what
   /// BiasRange::expected is.
   std::optional<ErrorParameters> expected = std::nullopt;
+  /// BiasRange::slight of the same.
+  std::optional<SlightBias> slight = std::nullopt;
 };
 
 /// Of one fit: the likeliest, and others about as likely, which nothing may ever tell from

@@ -49,10 +49,13 @@ bool ErrorStates::HasRate() const {
 }
 
 void ErrorStates::Extend(Problem* problem) const {
-  const Sensor sensor =
-      problem->timeline.sensors()[static_cast<std::size_t>(receiver_)];
   ApplyToSensor(&problem->timeline);
-  if (!HasError()) return;
+  if (HasError()) AddError(problem);
+}
+
+void ErrorStates::AddError(Problem* problem) const {
+  const Sensor& sensor =
+      problem->timeline.sensors()[static_cast<std::size_t>(receiver_)];
   ErrorLayout& layout = problem->layout;
   AddBlock(BlockKind::kSensorError, sensor.name + "_error", unit_,
            FirstSigma(chosen_.steps.front().mode, chosen_.parameters)

@@ -22,8 +22,11 @@ class ErrorStates {
               const WeighedHypothesis& chosen);
 
   /// Puts e and r behind all other blocks, as far as the hypothesis has them, with
-  /// their steps, and gives the sensor's fixes the sigma and loss as found.
+  /// their steps; gives the sensor's fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
+
+  /// The first of both alone.
+  void AddError(Problem* problem) const;
 
   /// In a problem that was extended so, gives e the sigmas and the correlation time of
   /// `other`.

@@ -25,6 +25,15 @@ using DecidedErrors = std::vector<std::shared_ptr<const ErrorDecisions>>;
 /// The sensor that decisions are about.
 std::size_t SensorOf(const ErrorDecisions& decisions);
 
+/// Whether noise was chosen, but does not rule out a Gauss-Markov error throughout.
+bool HasOpenBias(const ErrorDecisions& decisions);
+
+/// Gives a problem that error, if the sensor has no other there: a block behind all others,
+/// so large and slow as is expected a posteriori. Returns its probability, 0 if nothing was
+/// done. `tape` has the nodes of the problem.
+double ExtendByOpenBias(const ErrorDecisions& decisions, const LinearTape& tape,
+                        Problem* problem);
+
 /// What is asked of FindReceiverErrors.
 struct ErrorQuestion {
   /// Sensors that are not looked at: what was found of them is in the problem.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "receiver_errors/hypothesis_words.h"
 #include "receiver_errors/receiver_errors.h"
 #include "receiver_errors/sensor_findings.h"
@@ -57,6 +58,13 @@ std::vector<std::string> ReceiverErrors::Notes(
         odds < 10.0 ? 1 : 0, one.log_posterior > 0.0 ? "more" : "less",
         errors.empty() ? "outliers, or steps of the IMU's velocity"
                        : fmt::format("{}", fmt::join(errors, ", "))));
+  }
+  if (const auto& open = found_->open) {
+    notes.push_back(fmt::format(
+        "covariances hold it to {} that beside noise there are Gauss-Markov "
+        "errors, as expected of sigma {:.3g} {}, correlation time {:.3g} s",
+        FormatProbability(1.0 / (1.0 + std::exp(-open->log_odds))),
+        open->expected.sigma, found_->unit, open->expected.tau));
   }
   for (std::string& note : notes) note.insert(0, found_->name + ": ");
   return notes;

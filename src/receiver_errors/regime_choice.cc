@@ -101,26 +101,59 @@ std::size_t LikeliestNoise(const std::vector<ErrorRegimes>& all) {
   return best;
 }
 
+/// White noise of which a Gauss-Markov error has all parameters, and so the prior of each:
+/// the noise as stated has none, and wins over either by what they cost. `likeliest` where
+/// it was not fitted.
+const ErrorRegimes& NestedNoise(const std::vector<ErrorRegimes>& all,
+                                std::size_t likeliest) {
+  const auto white = std::ranges::find(all, Kind::kWhite, &ErrorRegimes::kind);
+  return white != all.end() ? *white : all[likeliest];
+}
+
+/// The likeliest of a kind that noise does not rule out, nor it the likeliest noise, of
+/// which the evidence is `best`; index 0 if there is none.
+RegimeChoice::Undecided NotRuledOut(Kind kind, const ErrorRegimes& noise,
+                                    const std::vector<ErrorRegimes>& all,
+                                    double best) {
+  RegimeChoice::Undecided likeliest = {0, -kLeastGain};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double gain = all[i].log_evidence - noise.log_evidence;
+    const bool wins = all[i].log_evidence - best > kLeastGain;
+    if (all[i].kind == kind && gain > likeliest.gain && !wins) {
+      likeliest = {i, gain};
+    }
+  }
+  return likeliest;
+}
+
+/// RegimeChoice::open.
+std::optional<RegimeChoice::Undecided> LeftOpen(
+    const std::vector<ErrorRegimes>& all, std::size_t likeliest_noise) {
+  const double beside = NestedNoise(all, likeliest_noise).log_evidence;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].slight) continue;
+    const double gain = all[i].log_evidence + all[i].slight->log_gain - beside;
+    const bool wins =
+        all[i].log_evidence - all[likeliest_noise].log_evidence > kLeastGain;
+    if (gain > -kLeastGain && !wins) return {{i, gain}};
+  }
+  return std::nullopt;
+}
+
 /// RegimeChoice::undecided.
 std::vector<RegimeChoice::Undecided> FindUndecided(
     const RegimeProblem& problem, const std::vector<ErrorRegimes>& all,
     const RegimeChoice& choice) {
-  const ErrorRegimes& noise = all[choice.chosen];
-  if (noise.kind > Kind::kWhite) return {};
-  const double best = all[choice.noise].log_evidence;
   std::vector<RegimeChoice::Undecided> undecided;
   for (const Kind kind : {Kind::kGaussMarkov, Kind::kSwitching}) {
-    RegimeChoice::Undecided likeliest = {0, -kLeastGain};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const double gain = all[i].log_evidence - best;
-      if (all[i].kind != kind || gain <= likeliest.gain || gain > kLeastGain) {
-        continue;
-      }
-      likeliest = {i, gain};
-    }
-    if (likeliest.index > 0 &&
-        LossTo(problem, all[likeliest.index], noise).empty()) {
-      undecided.push_back(likeliest);
+    const bool is_nested = kind == Kind::kGaussMarkov;
+    const ErrorRegimes& noise =
+        is_nested ? NestedNoise(all, choice.noise) : all[choice.noise];
+    const RegimeChoice::Undecided one =
+        NotRuledOut(kind, noise, all, all[choice.noise].log_evidence);
+    const ErrorRegimes& held = is_nested ? noise : all[choice.chosen];
+    if (one.index > 0 && LossTo(problem, all[one.index], held).empty()) {
+      undecided.push_back(one);
     }
   }
   std::ranges::stable_sort(undecided, std::greater<>(),
@@ -169,7 +202,9 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
                                          RegimeName(all[i].kind), objection));
   }
   choice.noise = LikeliestNoise(all);
+  if (all[choice.chosen].kind > Kind::kWhite) return choice;
   choice.undecided = FindUndecided(problem, all, choice);
+  choice.open = LeftOpen(all, choice.noise);
   return choice;
 }
 

@@ -2,6 +2,7 @@
 #define HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,20 @@ struct RegimeChoice {
   std::vector<std::string> refused;
   struct Undecided {
     std::size_t index = 0;
-    double gain = 0.0;  ///< ln of its evidence over that of the likeliest noise
+    double gain = 0.0;  ///< ln of its evidence over that of noise
   };
   /// The likeliest noise, whether it stands or not.
   std::size_t noise = 0;
-  /// Where noise was chosen: of each richer kind the likeliest whose evidence is within
-  /// kLeastGain of the likeliest noise's either way, unless it predicts held-out
-  /// stretches worse than what was chosen. The likelier kind first.
+  /// Where noise was chosen: of each richer kind the likeliest that noise does not rule
+  /// out to kLeastGain, nor it the likeliest noise, unless it predicts held-out stretches
+  /// worse. A Gauss-Markov error is weighed against white noise, of which it has all
+  /// parameters; the others against the likeliest noise, and by held-out stretches against
+  /// what was chosen. The likelier kind first.
   std::vector<Undecided> undecided;
+  /// Where noise was chosen: a Gauss-Markov error of the size of what is stated
+  /// (SlightBias), weighed alike, whatever it predicts, as it moves nothing, but covariances
+  /// are widened by it.
+  std::optional<Undecided> open;
 };
 
 /// The one of the largest evidence that stands: it

@@ -2,6 +2,7 @@
 #define HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ namespace hindsight {
 struct SearchLimits {
   double share = 1.0;        ///< of the effort that a search may cost
   SearchEffort::GoOn go_on;  ///< of all steps
+};
+
+/// A Gauss-Markov error throughout beside noise that was chosen.
+struct OpenBias {
+  ErrorParameters expected;  ///< as of SlightBias
+  double log_odds = 0.0;     ///< against noise alone
 };
 
 /// What a search decided about one sensor: sequences by fix, wherever nodes
@@ -52,6 +59,8 @@ struct ErrorDecisions {
   double gain = 0.0;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
+  /// That noise does not rule out to kLeastGain.
+  std::optional<OpenBias> open;
   /// The likeliest noise, by fix, against which these were weighed.
   Hypothesis likeliest_noise;
   ErrorRegimes regimes;  ///< if they stand
@@ -92,7 +101,7 @@ struct SensorFindings : ErrorDecisions {
   double GainOn(const SensorTape& whole) const;
   /// Whether that is what RegimeChoice asks of it.
   bool Wins(const SensorTape& whole, bool has_clock) const;
-  /// Says in RegimeChoice::refused that it is not.
+  /// Says in RegimeChoice::refused that it is not; a bias throughout stays open.
   void Refuse(const SensorTape& whole);
 
   /// Takes back what stands, but not what was refused.

@@ -43,8 +43,8 @@ std::vector<Tunable> TunablesOf(const ModeSequence& sequence,
   if (slight) {
     out.push_back(
         {&ErrorParameters::slight_tau, 0.1, 1e9, from.slight_tau, 2.3});
-    out.push_back(
-        {&ErrorParameters::slight_sigma, 1e-4, 1e5, from.slight_sigma, 1.0});
+    out.push_back({&ErrorParameters::slight_sigma, 1e-4, 1e5, from.slight_sigma,
+                   kSpreadOfSlight});
   }
   if (drifting) {
     out.push_back(

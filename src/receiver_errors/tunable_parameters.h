@@ -30,6 +30,10 @@ inline constexpr double kLeastScale = 0.1;
 /// noise of its amplitude, of which what is integrated keeps next to nothing.
 inline constexpr double kLeastImuScale = 0.01;
 
+/// Of ln of a slight bias's sigma a priori, about that as stated: what remains of
+/// ionosphere, orbits and antenna.
+inline constexpr double kSpreadOfSlight = 1.0;
+
 /// Each that is beyond a bound at it.
 ErrorParameters Bounded(const std::vector<Tunable>& tunables,
                         ErrorParameters p);

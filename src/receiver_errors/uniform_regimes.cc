@@ -102,6 +102,7 @@ ErrorRegimes FitUniform(const RegimeProblem& problem, ErrorRegimes::Kind kind,
   if (range) {
     one.parameters = range->mean;
     out.expected = range->expected;
+    out.slight = range->slight;
     score();
   }
   out.hypotheses.push_back(std::move(one));

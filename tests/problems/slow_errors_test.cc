@@ -7,6 +7,8 @@
 
 #include "base/random.h"
 #include "base/units.h"
+#include "dataset/injection.h"
+#include "io/config/injection_text.h"
 #include "io/config/scenario_config.h"
 #include "problems/accuracy.h"
 #include "simulation/scenario.h"
@@ -100,6 +102,29 @@ TEST(RobustBatch, IsHonestBesideErrorsOfWhichOnlyTheWalkIsSeen) {
     EXPECT_TRUE(nees < kHonest || !solution.usable()) << 41 + run;
   }
   EXPECT_GE(honest, 6);
+}
+
+/// Multipath of the size of a stated sigma: beside the noise of the fixes and of a consumer
+/// IMU nothing is seen of it, and nothing is moved; but it may be there.
+TEST(RobustBatch, HoldsErrorsThatNoiseHides) {
+  constexpr int kRuns = 6;
+  constexpr double kWrong = 30.0;
+  int wrong = 0;
+  int wrong_without = 0;
+  for (std::uint64_t run = 0; run < kRuns; ++run) {
+    const Dataset clean = Simulate(FindScenario("test_hand"), 61 + run);
+    Dataset dirty = clean;
+    ApplyInjections({ParseInjection("camera:multipath=2cm,tau=60s,axes=ned")},
+                    71 + run, &dirty);
+    const Solution batch = SolveBy("batch", dirty);
+    const Solution solution = SolveBy("robust_batch", dirty);
+    wrong_without += Judge(dirty, batch).position_nees > kWrong;
+    wrong += Judge(dirty, solution).position_nees > kWrong && solution.usable();
+    // Of one of which the data tell nothing the prior does, beside which it is small.
+    EXPECT_LT(Judge(clean, SolveBy("robust_batch", clean)).position_nees, 4.0);
+  }
+  EXPECT_GE(wrong_without, 4);
+  EXPECT_LE(wrong, 1);
 }
 
 }  // namespace

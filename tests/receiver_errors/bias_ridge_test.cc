@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/random.h"
 #include "receiver_errors/error_tuning.h"
+#include "receiver_errors/parameter_tuning.h"
 #include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "support/test_problem.h"
@@ -134,6 +137,57 @@ TEST(FollowBias, ExpectsTheVarianceOfTheMean) {
       TellOf(TapeWithErrors(5.0 * kFixSigma, 100.0), from).range;
   EXPECT_GT(VarianceOfMean(range.expected, 300.0),
             VarianceOfMean(range.mean, 300.0));
+}
+
+/// What the noise hides is no ridge. Integrals over sigma and tau are those of a grid, which
+/// holds what the ridge has of the IMU and down as it is at its top.
+TEST(FollowBias, IntegratesOverSigmaAndTau) {
+  constexpr double kStep = 0.25;  // of ln sigma
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
+  biased.front().anew = true;
+  for (const double sigma : {0.0, 1.0 * kFixSigma, 5.0 * kFixSigma}) {
+    const LinearTape linear = TapeWithErrors(sigma, 100.0);
+    const SensorTape tape(linear, 0);
+    const ErrorParameters found = TuneParameters(tape, biased, from);
+    const BiasRange range = FollowBias(tape, biased, found, from);
+    const auto posterior = [&](const ErrorParameters& p) {
+      return ScoreSequence(tape, p, biased).log_likelihood +
+             LogPriorOf(biased, p, from);
+    };
+    const double best = posterior(range.likeliest);
+    double sum = 0.0;
+    double variances = 0.0;
+    for (double i = -48.0; i <= 12.0; ++i) {
+      for (double j = -10.0; j <= 10.0; ++j) {
+        ErrorParameters p = range.likeliest;
+        p.sigma = kFixSigma * std::exp(kStep * i);
+        p.down = range.likeliest.down * range.likeliest.sigma / p.sigma;
+        p.down = std::clamp(p.down, 0.02, 50.0);
+        p.tau = 100.0 * std::exp(4.0 * kStep * j);
+        const double weight = std::exp(posterior(p) - best);
+        sum += weight;
+        variances += weight * VarianceOfMean(p, 300.0);
+      }
+    }
+    // ln of the integral of the posterior by that of the prior, whose spread is 2.3.
+    const double log_share = std::log(sum * kStep * 4.0 * kStep /
+                                      (2.0 * std::numbers::pi * 2.3 * 2.3));
+    // What is made of each parameter by itself, with the gain, at those of the others.
+    const double each = LogShareOfPrior(tape, biased, range.likeliest, from);
+    ParameterTuning tuning(tape, biased, from, nullptr);
+    const double others =
+        each -
+        tuning.LogShareOfPrior(&ErrorParameters::sigma, range.likeliest, best) -
+        tuning.LogShareOfPrior(&ErrorParameters::tau, range.likeliest, best);
+    EXPECT_NEAR(each - others + range.log_gain, log_share, 0.5) << sigma;
+    EXPECT_NEAR(
+        std::log(VarianceOfMean(range.expected, 300.0) / (variances / sum)),
+        0.0, std::log(2.0))
+        << sigma;
+  }
 }
 
 /// As the double sum of its covariance over the duration.

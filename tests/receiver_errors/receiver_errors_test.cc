@@ -683,6 +683,43 @@ TEST(ReceiverErrors, AreExpectedLargerThanTheTrajectoryIsToldBy) {
   }
 }
 
+/// The problem gets what is expected of it, with its probability; not beside errors that
+/// are there.
+TEST(ReceiverErrors, ThatStayOpenExtendAProblem) {
+  const TestProblem test = FixesOfOneMinute();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  ErrorDecisions decisions(problem, tape, 0);
+  Problem extended = problem;
+  EXPECT_FALSE(HasOpenBias(decisions));
+  EXPECT_EQ(ExtendByOpenBias(decisions, tape, &extended), 0.0);
+  EXPECT_EQ(extended.layout.dim(), problem.layout.dim());
+  decisions.open.emplace();
+  decisions.open->log_odds = -std::log(3.0);
+  decisions.open->expected.sigma = 3.0;
+  decisions.open->expected.tau = 90.0;
+  decisions.open->expected.down = 0.5;
+  EXPECT_TRUE(HasOpenBias(decisions));
+  EXPECT_NEAR(ExtendByOpenBias(decisions, tape, &extended), 0.25, 1e-12);
+  const Block* error = extended.layout.Find(BlockKind::kSensorError, 0);
+  ASSERT_NE(error, nullptr);
+  const int e = error->offset;
+  EXPECT_EQ(extended.layout.dim(), problem.layout.dim() + 3);
+  EXPECT_EQ(extended.prior.P(e, e), 9.0);
+  EXPECT_EQ(extended.prior.P(e + 2, e + 2), 2.25);
+  const auto steps = extended.timeline.StepsAfter(0);
+  const auto step = std::ranges::find(steps, error->key, &BlockStep::key);
+  ASSERT_NE(step, steps.end());
+  EXPECT_NEAR(step->phi, std::exp(-1.0 / 90.0), 1e-12);
+  EXPECT_EQ(ExtendByOpenBias(decisions, tape, &extended), 0.0);
+  EXPECT_THAT(
+      TakeThem(decisions, problem, tape)
+          .Notes(CovarianceSeries(tape.dim(), tape.size())),
+      Contains(HasSubstr("covariances hold it to 25 % that beside noise there "
+                         "are Gauss-Markov errors, as expected of sigma 3 m, "
+                         "correlation time 90 s")));
+}
+
 /// An error that grows by 3.6 m/s from 21 to 30 s.
 TestProblem WithFastDrift() {
   TestProblem test = FixesOfOneMinute();

@@ -20,6 +20,7 @@ using testing::Good;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::Optional;
 using testing::PositionsOnly;
 using testing::TapeOf;
 using testing::TestProblem;
@@ -102,6 +103,44 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
   EXPECT_THAT(choose(10.0, 8.0).undecided, ElementsAre(Leaves(2, -2.0)));
   EXPECT_EQ(choose(0.0, 1.2).chosen, 2u);
   EXPECT_THAT(choose(0.0, 1.2).undecided, IsEmpty());
+}
+
+/// What is stated has no parameters, and wins over white noise by what these cost: that
+/// there is a slow error beside noise is not less likely for it.
+TEST(RegimeChoice, WeighsGaussMarkovErrorsAgainstWhiteNoise) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const auto choose = [&](double gauss_markov) {
+    ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, gauss_markov);
+    slow.slight = SlightBias{{}, 0.5};
+    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                                  Regime(tape, Kind::kWhite, -6.0), slow});
+  };
+  EXPECT_THAT(choose(-13.0).undecided, IsEmpty());
+  EXPECT_FALSE(choose(-13.5).open.has_value());
+  EXPECT_THAT(choose(-7.0).undecided, ElementsAre(Leaves(2, -1.0)));
+  EXPECT_THAT(choose(-7.0).open, Optional(Leaves(2, -0.5)));
+  EXPECT_THAT(choose(6.0).open, Optional(Leaves(2, 12.5)));
+  EXPECT_EQ(choose(8.0).chosen, 2u);
+  EXPECT_FALSE(choose(8.0).open.has_value());
+}
+
+/// By covariances, which move nothing.
+TEST(RegimeChoice, LeavesOpenWhatPredictsWorse) {
+  const LinearTape tape = TapeOf(PositionsOnly(300.0));
+  SearchEffort effort(1e9, nullptr);
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
+  ErrorRegimes worse = Regime(tape, Kind::kGaussMarkov, -1.0);
+  worse.hypotheses[0].parameters.scale = 10.0;
+  worse.slight = SlightBias{{}, 0.0};
+  const RegimeChoice choice =
+      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                             Regime(tape, Kind::kWhite, 0.0), worse});
+  EXPECT_THAT(choice.undecided, IsEmpty());
+  EXPECT_THAT(choice.open, Optional(Leaves(2, -1.0)));
 }
 
 TEST(RegimeChoice, LeavesTheLikeliestOfEachKindUndecided) {
