@@ -7,28 +7,18 @@
 
 #include "filters/forward_filter.h"
 #include "filters/rts.h"
+#include "receiver_errors/receiver_tape.h"
 #include "receiver_errors/sensor_findings.h"
-#include "support/test_problem.h"
 
 namespace hindsight {
 namespace {
 
-using testing::MakeProblem;
-using testing::TacticalNoise;
+using testing::PositionsOnly;
 using testing::TestProblem;
-using testing::TestProblemOptions;
-using testing::TypicalLayout;
 
 /// A minute of positions alone, of which the start is not known.
 TestProblem LonePositions() {
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 60.0;
-  options.position_sigma = 0.5;
-  options.velocity_sigma = 0.0;
-  TestProblem test = MakeProblem(options, 3);
+  TestProblem test = PositionsOnly(60.0);
   test.prior.P.topLeftCorner<3, 3>() *= 1e6;
   return test;
 }
