@@ -40,9 +40,12 @@ std::vector<State> Over(const ErrorLayout& layout, std::vector<State> states) {
 
 }  // namespace
 
-void WidenByOpenBiases(const SearchDecisions& decisions, const Problem& problem,
-                       const std::vector<State>& states, CovarianceSeries* P) {
-  if (!HasRoom(problem.layout)) return;
+std::vector<std::string> WidenByOpenBiases(const SearchDecisions& decisions,
+                                           const Problem& problem,
+                                           const std::vector<State>& states,
+                                           CovarianceSeries* P) {
+  std::vector<std::string> held;
+  if (!HasRoom(problem.layout)) return held;
   const int dim = problem.layout.dim();
   std::unique_ptr<const LinearTape> tape;
   SmoothedTrajectory without;
@@ -66,7 +69,9 @@ void WidenByOpenBiases(const SearchDecisions& decisions, const Problem& problem,
                             without.P.Get(k) + d * d.transpose());
       P->Set(k, P_k);
     }
+    held.push_back(OpenBiasInWords(*one));
   }
+  return held;
 }
 
 }  // namespace hindsight

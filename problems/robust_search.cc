@@ -66,8 +66,8 @@ Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes,
       stage->FromSmoothed(std::move(result.states), std::move(result.P), nodes);
   solution.iterations = result.iterations;
   solution.converged = result.converged;
-  WidenByOpenBiases(decisions, *nodes.problem, solution.states,
-                    &solution.covariances);
+  solution.notes = WidenByOpenBiases(decisions, *nodes.problem, solution.states,
+                                     &solution.covariances);
   stage->JudgeHeading(solution, nodes);
   return solution;
 }
@@ -86,8 +86,8 @@ Solution TakeRobust(RobustBatchResult result, MethodStage* stage,
                 .variances = VariancesOf(solution.layout, solution.covariances),
                 .smoother = {}},
                &result.problem, stage->forward().Progress("grading")));
-  WidenByOpenBiases(searched->decisions, result.problem, solution.states,
-                    &solution.covariances);
+  solution.notes = WidenByOpenBiases(searched->decisions, result.problem,
+                                     solution.states, &solution.covariances);
   DoubtOutliersAtGaps(timeline, solution.residuals, doubts);
   searched->erring.clear();
   std::size_t record = 0;
@@ -224,7 +224,8 @@ Solution SearchAtOwnNodes(MethodStage* stage, RobustSearch* searched) {
     Solution one = plain ? SolvePlainly(stage, nodes, searched->decisions)
                          : SolveRobustly(stage, nodes, searched);
     if (searched->placed > placed) return one;
-    one.notes = searched->notes;
+    one.notes.insert(one.notes.begin(), searched->notes.begin(),
+                     searched->notes.end());
     one.left_out = searched->left_out;
     searched->done = true;
     searched->layout = one.layout;

@@ -59,6 +59,7 @@ std::vector<Sample> Beside(const RidgePoint& at, double sign, double least,
                            const ParameterTuning& tuning) {
   constexpr double kStep = 0.35;  // of ln sigma
   constexpr double kWidest = 4.0 * kStep;
+  constexpr double kNarrowest = 0.01 * kStep;
   constexpr double kSteep = 2.0;
   constexpr double kFlat = 0.5;
   constexpr int kMost = 32;
@@ -76,7 +77,7 @@ std::vector<Sample> Beside(const RidgePoint& at, double sign, double least,
                         down.most);
     const double value = tuning.Value(p);
     const double fall = before - value;
-    if (samples.empty() && fall > kSteep && step > 0.01 * kStep) {
+    if (fall > kSteep && step > kNarrowest) {
       step /= 3.0;
       continue;
     }
@@ -154,20 +155,19 @@ struct BothIntegrals {
   Integrals slight;
 };
 
-/// The density of ln sigma a priori of a slight bias by that of a bias.
-double SlightByBiased(const Tunable& biased, double sigma) {
-  Tunable slight = biased;
-  slight.spread = kSpreadOfSlight;
-  const auto log_density = [sigma](const Tunable& one) {
-    const double z = std::log(sigma / one.typical) / one.spread;
-    return -0.5 * z * z - LogOfIntegral(PriorCurvature(one));
-  };
-  return std::exp(log_density(slight) - log_density(biased));
+/// The density a priori of ln of a parameter with another spread by that with its own.
+double DensityRatio(const Tunable& own, double spread, double value) {
+  const double z = std::log(value / own.typical);
+  const double curvature = 1.0 / (spread * spread);
+  return std::exp(LogOfIntegral(PriorCurvature(own)) -
+                  LogOfIntegral(curvature) -
+                  0.5 * (curvature - PriorCurvature(own)) * z * z);
 }
 
 BothIntegrals Integrate(const std::vector<RidgePoint>& ridge, double best,
                         double duration, const ParameterTuning& tuning) {
-  const Tunable& biased = tuning.TunableOf(&ErrorParameters::sigma);
+  const Tunable& sigma = tuning.TunableOf(&ErrorParameters::sigma);
+  const Tunable& tau = tuning.TunableOf(&ErrorParameters::tau);
   BothIntegrals sums;
   for (const RidgePoint& at : ridge) {
     const std::vector<Sample> samples = Across(at, best - kLeastGain, tuning);
@@ -177,7 +177,9 @@ BothIntegrals Integrate(const std::vector<RidgePoint>& ridge, double best,
       ErrorParameters p = at.parameters;
       p.sigma = std::exp(samples[i].log_sigma);
       sums.biased.Add(weight, p, duration);
-      sums.slight.Add(weight * SlightByBiased(biased, p.sigma), p, duration);
+      const double slight = DensityRatio(sigma, kSpreadOfSlight, p.sigma) *
+                            DensityRatio(tau, kSpreadOfSlightTau, p.tau);
+      sums.slight.Add(weight * slight, p, duration);
     }
   }
   return sums;
@@ -213,8 +215,10 @@ BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
   range.mean = PointAtTau(ridge, std::exp(sum.log_tau / sum.one));
   range.mean.sigma = std::exp(sum.log_sigma / sum.one);
   range.expected = ExpectedOf(sum, ridge, duration);
-  range.slight = {.expected = ExpectedOf(slight, ridge, duration),
-                  .log_gain = std::log(slight.one / sum.one)};
+  if (!tuning.IsSpent()) {
+    range.slight = SlightBias{.expected = ExpectedOf(slight, ridge, duration),
+                              .log_gain = std::log(slight.one / sum.one)};
+  }
   range.log_gain = std::log(sum.one);
   for (double ErrorParameters::*member :
        {&ErrorParameters::tau, &ErrorParameters::sigma}) {

@@ -1,6 +1,8 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_BIAS_RIDGE_H_
 #define HINDSIGHT_RECEIVER_ERRORS_BIAS_RIDGE_H_
 
+#include <optional>
+
 #include "receiver_errors/mode_sequence.h"
 #include "receiver_errors/search_effort.h"
 
@@ -24,7 +26,8 @@ struct BiasRange {
   /// nothing else tells positions that mean is what nobody sees: covariances of `mean`
   /// would be too small by as much as is left open.
   ErrorParameters expected;
-  SlightBias slight;
+  /// None where the effort was spent before the posterior was followed to its end.
+  std::optional<SlightBias> slight = std::nullopt;
   /// ln of the integral of the posterior over sigma and tau, by what LogShareOfPrior takes
   /// it for at `likeliest`, of each by itself.
   double log_gain = 0.0;

@@ -79,7 +79,7 @@ double ExtendByOpenBias(const ErrorDecisions& decisions, const LinearTape& tape,
   ErrorStates(tape, decisions.sensor, decisions.stated_sigma, decisions.unit,
               ErrorRegimes::Kind::kGaussMarkov, throughout)
       .AddError(problem);
-  return 1.0 / (1.0 + std::exp(-decisions.open->log_odds));
+  return decisions.open->Probability();
 }
 
 ErrorDecisions::ErrorDecisions(const Problem& problem, const LinearTape& tape,

@@ -206,6 +206,7 @@ void FitGaussMarkovAnew(const RegimeProblem& problem,
   ErrorRegimes other =
       FitGaussMarkov(problem, typical, gauss_markov->log_evidence);
   if (other.log_evidence > gauss_markov->log_evidence) {
+    if (!other.slight) other.slight = gauss_markov->slight;
     *gauss_markov = std::move(other);
   }
 }

@@ -160,6 +160,13 @@ std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p) {
   return all;
 }
 
+std::string DescribeSigma(const ErrorParameters& p, const std::string& unit) {
+  constexpr double kAlike = 1.5;
+  const bool alike = p.down < kAlike && p.down > 1.0 / kAlike;
+  return fmt::format("sigma {:.3g} {}", p.sigma, unit) +
+         (alike ? "" : fmt::format(" ({:.2g} down)", p.down * p.sigma));
+}
+
 std::vector<std::string> DescribeErrors(const ModeSequence& steps,
                                         const ErrorParameters& p,
                                         const std::string& unit,
@@ -169,11 +176,7 @@ std::vector<std::string> DescribeErrors(const ModeSequence& steps,
   };
   std::vector<std::string> all;
   if (has(ErrorMode::kBiased)) {
-    constexpr double kAlike = 1.5;
-    const bool alike = p.down < kAlike && p.down > 1.0 / kAlike;
-    const std::string sigma =
-        fmt::format("sigma {:.3g} {}", p.sigma, unit) +
-        (alike ? "" : fmt::format(" ({:.2g} down)", p.down * p.sigma));
+    const std::string sigma = DescribeSigma(p, unit);
     all.push_back(
         p.tau <= duration
             ? fmt::format("Gauss-Markov errors, {}, correlation time {:.3g} s",

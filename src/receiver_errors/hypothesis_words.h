@@ -61,6 +61,9 @@ RivalHypothesis FindRivalBeyond(const std::vector<WeighedHypothesis>& all,
                                 const WeighedHypothesis& chosen,
                                 const CovarianceSeries& P);
 
+/// Of a bias: "sigma 0.5 m", "sigma 0.5 m (0.1 down)".
+std::string DescribeSigma(const ErrorParameters& p, const std::string& unit);
+
 /// What the noise of a sensor is like.
 std::string DescribeNoise(ErrorRegimes::Kind kind, const ErrorParameters& p);
 /// By what sigma the errors of a sequence's steps are taken for possible, a clause for

@@ -28,6 +28,9 @@ std::size_t SensorOf(const ErrorDecisions& decisions);
 /// Whether noise was chosen, but does not rule out a Gauss-Markov error throughout.
 bool HasOpenBias(const ErrorDecisions& decisions);
 
+/// That error in words, which HasOpenBias: "gnss: covariances hold it to 40 % that ...".
+std::string OpenBiasInWords(const ErrorDecisions& decisions);
+
 /// Gives a problem that error, if the sensor has no other there: a block behind all others,
 /// so large and slow as is expected a posteriori. Returns its probability, 0 if nothing was
 /// done. `tape` has the nodes of the problem.

@@ -59,15 +59,18 @@ std::vector<std::string> ReceiverErrors::Notes(
         errors.empty() ? "outliers, or steps of the IMU's velocity"
                        : fmt::format("{}", fmt::join(errors, ", "))));
   }
-  if (const auto& open = found_->open) {
-    notes.push_back(fmt::format(
-        "covariances hold it to {} that beside noise there are Gauss-Markov "
-        "errors, as expected of sigma {:.3g} {}, correlation time {:.3g} s",
-        FormatProbability(1.0 / (1.0 + std::exp(-open->log_odds))),
-        open->expected.sigma, found_->unit, open->expected.tau));
-  }
   for (std::string& note : notes) note.insert(0, found_->name + ": ");
   return notes;
+}
+
+std::string OpenBiasInWords(const ErrorDecisions& decisions) {
+  const OpenBias& open = decisions.open.value();
+  return fmt::format(
+      "{}: covariances hold it to {} that beside noise there are Gauss-Markov "
+      "errors of about the stated sigma, as expected {}, correlation time "
+      "{:.3g} s",
+      decisions.name, FormatProbability(open.Probability()),
+      DescribeSigma(open.expected, decisions.unit), open.expected.tau);
 }
 
 std::string ReceiverErrors::InWords() const {

@@ -132,10 +132,9 @@ std::optional<RegimeChoice::Undecided> LeftOpen(
   const double beside = NestedNoise(all, likeliest_noise).log_evidence;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].slight) continue;
-    const double gain = all[i].log_evidence + all[i].slight->log_gain - beside;
-    const bool wins =
-        all[i].log_evidence - all[likeliest_noise].log_evidence > kLeastGain;
-    if (gain > -kLeastGain && !wins) return {{i, gain}};
+    const double gain = all[i].log_evidence + all[i].slight->log_gain +
+                        kLogOddsOfSlowErrors - beside;
+    if (gain > -kLeastGain) return {{i, gain}};
   }
   return std::nullopt;
 }

@@ -165,8 +165,9 @@ void SensorFindings::Refuse(const SensorTape& whole) {
       "errors as stated [ln of the evidence]",
       RegimeName(regimes.kind), GainOn(whole)));
   if (!regimes.slight) return;
-  const OpenBias refused = {regimes.slight->expected,
-                            GainOn(whole) + regimes.slight->log_gain};
+  const OpenBias refused = {
+      regimes.slight->expected,
+      GainOn(whole) + regimes.slight->log_gain + kLogOddsOfSlowErrors};
   if (refused.log_odds > -kLeastGain) open = refused;
 }
 

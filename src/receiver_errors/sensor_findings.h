@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct SearchLimits {
 
 /// A Gauss-Markov error throughout beside noise that was chosen.
 struct OpenBias {
+  double Probability() const { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
   ErrorParameters expected;  ///< as of SlightBias
   double log_odds = 0.0;     ///< against noise alone
 };

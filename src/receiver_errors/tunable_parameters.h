@@ -33,6 +33,9 @@ inline constexpr double kLeastImuScale = 0.01;
 /// Of ln of a slight bias's sigma a priori, about that as stated: what remains of
 /// ionosphere, orbits and antenna.
 inline constexpr double kSpreadOfSlight = 1.0;
+/// Of ln of its correlation time where it lasts throughout: a factor of 5, from the seconds
+/// of multipath of a moving antenna to the half hour of the atmosphere.
+inline constexpr double kSpreadOfSlightTau = 1.6;
 
 /// Each that is beyond a bound at it.
 ErrorParameters Bounded(const std::vector<Tunable>& tunables,

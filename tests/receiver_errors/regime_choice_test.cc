@@ -114,7 +114,7 @@ TEST(RegimeChoice, WeighsGaussMarkovErrorsAgainstWhiteNoise) {
   const RegimeProblem problem{seen, 0.5, false, &effort};
   const auto choose = [&](double gauss_markov) {
     ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, gauss_markov);
-    slow.slight = SlightBias{{}, 0.5};
+    slow.slight = SlightBias{{}, 0.5 - kLogOddsOfSlowErrors};
     return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
                                   Regime(tape, Kind::kWhite, -6.0), slow});
   };
@@ -127,6 +127,23 @@ TEST(RegimeChoice, WeighsGaussMarkovErrorsAgainstWhiteNoise) {
   EXPECT_FALSE(choose(8.0).open.has_value());
 }
 
+/// However likely it is.
+TEST(RegimeChoice, LeavesOpenWhatDoesNotStandForAnotherReason) {
+  const LinearTape tape = TapeOf(PositionsOnly(30.0));
+  SearchEffort effort(1e9, nullptr);
+  const SensorTape seen(tape, 0);
+  const RegimeProblem problem{seen, 0.5, false, &effort};
+  ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, 20.0);
+  slow.hypotheses[0].parameters.scale = 0.2;
+  slow.hypotheses[0].parameters.imu_scale = 0.1;
+  slow.slight = SlightBias{{}, -kLogOddsOfSlowErrors};
+  const RegimeChoice choice =
+      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
+                             Regime(tape, Kind::kWhite, 1.0), slow});
+  EXPECT_EQ(choice.chosen, 0u);
+  EXPECT_THAT(choice.open, Optional(Leaves(2, 19.0)));
+}
+
 /// By covariances, which move nothing.
 TEST(RegimeChoice, LeavesOpenWhatPredictsWorse) {
   const LinearTape tape = TapeOf(PositionsOnly(300.0));
@@ -135,7 +152,7 @@ TEST(RegimeChoice, LeavesOpenWhatPredictsWorse) {
   const RegimeProblem problem{seen, 0.5, false, &effort};
   ErrorRegimes worse = Regime(tape, Kind::kGaussMarkov, -1.0);
   worse.hypotheses[0].parameters.scale = 10.0;
-  worse.slight = SlightBias{{}, 0.0};
+  worse.slight = SlightBias{{}, -kLogOddsOfSlowErrors};
   const RegimeChoice choice =
       ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
                              Regime(tape, Kind::kWhite, 0.0), worse});
