@@ -155,8 +155,7 @@ bool ErrorSearch::HasNext() const {
 
 bool ErrorSearch::HasRoom() const {
   constexpr int kOwnStates = 6;
-  return problem_.layout.parameter_count() + kOwnStates <= kMaxParameters &&
-         problem_.layout.dim() + kOwnStates <= kMaxErrorDim;
+  return HasRoomFor(problem_.layout, kOwnStates);
 }
 
 void ErrorSearch::Ask() {

@@ -22,12 +22,6 @@ std::map<std::size_t, std::shared_ptr<const ErrorDecisions>> LastOf(
   return last;
 }
 
-bool HasRoom(const ErrorLayout& layout) {
-  constexpr int kOwnStates = 3;
-  return layout.parameter_count() + kOwnStates <= kMaxParameters &&
-         layout.dim() + kOwnStates <= kMaxErrorDim;
-}
-
 /// With zeros for what the layout has beyond them.
 std::vector<State> Over(const ErrorLayout& layout, std::vector<State> states) {
   for (State& x : states) {
@@ -44,8 +38,9 @@ std::vector<std::string> WidenByOpenBiases(const SearchDecisions& decisions,
                                            const Problem& problem,
                                            const std::vector<State>& states,
                                            CovarianceSeries* P) {
+  constexpr int kErrorStates = 3;
   std::vector<std::string> held;
-  if (!HasRoom(problem.layout)) return held;
+  if (!HasRoomFor(problem.layout, kErrorStates)) return held;
   const int dim = problem.layout.dim();
   std::unique_ptr<const LinearTape> tape;
   SmoothedTrajectory without;

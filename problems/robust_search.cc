@@ -57,7 +57,7 @@ RobustBatchOptions OptionsOf(const MethodStage& stage,
           .until = end};
 }
 
-/// The plain batch, with covariances of what was not decided.
+/// The plain batch, of which covariances hold what was left open.
 Solution SolvePlainly(MethodStage* stage, const MethodStage::Nodes& nodes,
                       const SearchDecisions& decisions) {
   BatchResult result =

@@ -27,23 +27,66 @@ RidgePoint PointAt(const ErrorParameters& p, ParameterTuning* tuning) {
   return {.parameters = tuning->parameters(), .value = tuning->value()};
 }
 
-/// The points with a tau `step` times that of the one before, `found` the first.
-std::vector<RidgePoint> PointsFrom(const ErrorParameters& found, double step,
-                                   ParameterTuning* tuning) {
+/// The point with another tau, sought from its neighbour on.
+RidgePoint PointBeside(const ErrorParameters& neighbour, double tau,
+                       ParameterTuning* tuning) {
+  ErrorParameters p = neighbour;
+  p.sigma *= std::sqrt(tau / p.tau);
+  p.tau = tau;
+  return PointAt(p, tuning);
+}
+
+/// The points with a tau `step` times that of the one before, behind `from`, until odds
+/// are a thousand against them.
+std::vector<RidgePoint> PointsBehind(const RidgePoint& from, double step,
+                                     ParameterTuning* tuning) {
   constexpr int kMost = 8;
   std::vector<RidgePoint> ridge;
-  double best = tuning->Value(found);
-  ErrorParameters p = found;
-  for (int i = 0; i < kMost; ++i) {
-    if (tuning->IsSpent()) break;
-    p.tau *= step;
-    p.sigma *= std::sqrt(step);
-    RidgePoint point = PointAt(p, tuning);
+  double best = from.value;
+  ErrorParameters p = from.parameters;
+  for (int i = 0; i < kMost && !tuning->IsSpent(); ++i) {
+    RidgePoint point = PointBeside(p, step * p.tau, tuning);
     if (point.value < best - kLeastGain) break;
     best = std::max(best, point.value);
     p = point.parameters;
     ridge.push_back(std::move(point));
   }
+  return ridge;
+}
+
+/// Beside the IMU's noise of one maximum of the posterior another may not be met: points
+/// are sought from the best of a ridge on, as long as they gain, until it stays the best.
+void ClimbFromBest(std::vector<RidgePoint>* ridge, ParameterTuning* tuning) {
+  constexpr double kGains = 0.01;  // ln
+  const auto seek = [&](std::size_t from, std::size_t to) {
+    RidgePoint point = PointBeside((*ridge)[from].parameters,
+                                   (*ridge)[to].parameters.tau, tuning);
+    if (point.value <= (*ridge)[to].value + kGains) return false;
+    (*ridge)[to] = std::move(point);
+    return true;
+  };
+  std::size_t best = ridge->size();
+  while (!tuning->IsSpent()) {
+    const auto top = static_cast<std::size_t>(
+        std::ranges::max_element(*ridge, {}, &RidgePoint::value) -
+        ridge->begin());
+    if (top == best) return;
+    best = top;
+    for (std::size_t i = best; i > 0 && seek(i, i - 1);) --i;
+    for (std::size_t i = best; i + 1 < ridge->size() && seek(i, i + 1);) ++i;
+  }
+}
+
+/// `found` and what is beside it, of falling tau.
+std::vector<RidgePoint> FindRidge(const ErrorParameters& found,
+                                  ParameterTuning* tuning) {
+  const RidgePoint first = PointAt(found, tuning);
+  std::vector<RidgePoint> ridge = PointsBehind(first, kRidgeStep, tuning);
+  std::ranges::reverse(ridge);
+  ridge.push_back(first);
+  std::ranges::move(PointsBehind(first, 1.0 / kRidgeStep, tuning),
+                    std::back_inserter(ridge));
+  ClimbFromBest(&ridge, tuning);
   return ridge;
 }
 
@@ -201,11 +244,7 @@ BiasRange FollowBias(const SensorTape& tape, const ModeSequence& sequence,
                      const ErrorParameters& found, const ErrorParameters& from,
                      SearchEffort* effort) {
   ParameterTuning tuning(tape, sequence, from, effort);
-  std::vector<RidgePoint> ridge = PointsFrom(found, kRidgeStep, &tuning);
-  std::ranges::reverse(ridge);
-  ridge.push_back(PointAt(found, &tuning));
-  std::ranges::move(PointsFrom(found, 1.0 / kRidgeStep, &tuning),
-                    std::back_inserter(ridge));
+  const std::vector<RidgePoint> ridge = FindRidge(found, &tuning);
   const RidgePoint& best =
       *std::ranges::max_element(ridge, {}, &RidgePoint::value);
   const double duration = tape.t(tape.size() - 1) - tape.t(0);

@@ -62,6 +62,11 @@ std::size_t SensorOf(const ErrorDecisions& decisions) {
   return static_cast<std::size_t>(decisions.sensor);
 }
 
+bool HasRoomFor(const ErrorLayout& layout, int states) {
+  return layout.parameter_count() + states <= kMaxParameters &&
+         layout.dim() + states <= kMaxErrorDim;
+}
+
 bool HasOpenBias(const ErrorDecisions& decisions) {
   return decisions.open.has_value();
 }

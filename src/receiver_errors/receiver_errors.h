@@ -25,6 +25,9 @@ using DecidedErrors = std::vector<std::shared_ptr<const ErrorDecisions>>;
 /// The sensor that decisions are about.
 std::size_t SensorOf(const ErrorDecisions& decisions);
 
+/// Whether a layout holds so many more states of errors of sensors.
+bool HasRoomFor(const ErrorLayout& layout, int states);
+
 /// Whether noise was chosen, but does not rule out a Gauss-Markov error throughout.
 bool HasOpenBias(const ErrorDecisions& decisions);
 

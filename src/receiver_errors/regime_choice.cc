@@ -127,14 +127,11 @@ RegimeChoice::Undecided NotRuledOut(Kind kind, const ErrorRegimes& noise,
 }
 
 /// RegimeChoice::open.
-std::optional<RegimeChoice::Undecided> LeftOpen(
-    const std::vector<ErrorRegimes>& all, std::size_t likeliest_noise) {
+std::optional<OpenBias> FindOpen(const std::vector<ErrorRegimes>& all,
+                                 std::size_t likeliest_noise) {
   const double beside = NestedNoise(all, likeliest_noise).log_evidence;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].slight) continue;
-    const double gain = all[i].log_evidence + all[i].slight->log_gain +
-                        kLogOddsOfSlowErrors - beside;
-    if (gain > -kLeastGain) return {{i, gain}};
+  for (const ErrorRegimes& one : all) {
+    if (one.slight) return LeftOpen(*one.slight, one.log_evidence - beside);
   }
   return std::nullopt;
 }
@@ -179,6 +176,13 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 
 }  // namespace
 
+std::optional<OpenBias> LeftOpen(const SlightBias& slight, double log_gain) {
+  const OpenBias open = {slight.expected,
+                         log_gain + slight.log_gain + kLogOddsOfSlowErrors};
+  if (open.log_odds <= -kLeastGain) return std::nullopt;
+  return open;
+}
+
 RegimeChoice ChooseRegime(const RegimeProblem& problem,
                           const std::vector<ErrorRegimes>& all) {
   std::vector<std::size_t> order(all.size());
@@ -203,7 +207,7 @@ RegimeChoice ChooseRegime(const RegimeProblem& problem,
   choice.noise = LikeliestNoise(all);
   if (all[choice.chosen].kind > Kind::kWhite) return choice;
   choice.undecided = FindUndecided(problem, all, choice);
-  choice.open = LeftOpen(all, choice.noise);
+  choice.open = FindOpen(all, choice.noise);
   return choice;
 }
 

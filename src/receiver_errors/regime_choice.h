@@ -1,6 +1,7 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_
 #define HINDSIGHT_RECEIVER_ERRORS_REGIME_CHOICE_H_
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -25,6 +26,19 @@ inline constexpr double kLeastGainOfSwitching = kHardlyWorthMentioning;
 /// of positions (Laplace's rule of succession: one in four).
 inline constexpr double kLogOddsOfSlowErrors = -1.0986122886681098;
 
+/// A Gauss-Markov error of the size of what is stated (SlightBias) beside noise that was
+/// chosen.
+struct OpenBias {
+  double Probability() const { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+  ErrorParameters expected;  ///< as of SlightBias
+  double log_odds = 0.0;     ///< against noise alone
+};
+
+/// That of a Gauss-Markov error whose evidence is so much more than that of noise, unless
+/// noise rules it out to kLeastGain.
+std::optional<OpenBias> LeftOpen(const SlightBias& slight, double log_gain);
+
 /// Which of FitRegimes stands.
 struct RegimeChoice {
   std::size_t chosen = 0;  ///< 0: the noise as stated, nothing else
@@ -44,11 +58,10 @@ struct RegimeChoice {
   /// parameters; the others against the likeliest noise, and by held-out stretches against
   /// what was chosen. The likelier kind first.
   std::vector<Undecided> undecided;
-  /// Where noise was chosen: a Gauss-Markov error of the size of what is stated
-  /// (SlightBias) that noise does not rule out to kLeastGain, weighed alike but for its odds
-  /// a priori, kLogOddsOfSlowErrors. Whatever else speaks against it, also where it is far
-  /// likelier than noise: it moves nothing, but covariances are widened by it.
-  std::optional<Undecided> open;
+  /// Where noise was chosen, weighed as undecided ones. Whatever else speaks against it,
+  /// also where it is far likelier than noise: it moves nothing, but covariances are widened
+  /// by it.
+  std::optional<OpenBias> open;
 };
 
 /// The one of the largest evidence that stands: it

@@ -101,9 +101,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     kept.log_posterior = one.gain;
     if (points) kept.sequence = AtFixes(*points, kept.sequence);
   }
-  if (const auto& one = choice.open) {
-    open = OpenBias{all[one->index].slight.value().expected, one->gain};
-  }
+  open = choice.open;
   likeliest_noise = all[choice.noise].hypotheses.front();
   if (points) {
     likeliest_noise.sequence = AtFixes(*points, likeliest_noise.sequence);
@@ -164,11 +162,7 @@ void SensorFindings::Refuse(const SensorTape& whole) {
       "{} errors do not stand: on all measurements they win by {:.2g} over "
       "errors as stated [ln of the evidence]",
       RegimeName(regimes.kind), GainOn(whole)));
-  if (!regimes.slight) return;
-  const OpenBias refused = {
-      regimes.slight->expected,
-      GainOn(whole) + regimes.slight->log_gain + kLogOddsOfSlowErrors};
-  if (refused.log_odds > -kLeastGain) open = refused;
+  if (regimes.slight) open = LeftOpen(*regimes.slight, GainOn(whole));
 }
 
 void SensorFindings::Withdraw() {

@@ -1,7 +1,6 @@
 #ifndef HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 #define HINDSIGHT_RECEIVER_ERRORS_SENSOR_FINDINGS_H_
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,14 +20,6 @@ namespace hindsight {
 struct SearchLimits {
   double share = 1.0;        ///< of the effort that a search may cost
   SearchEffort::GoOn go_on;  ///< of all steps
-};
-
-/// A Gauss-Markov error throughout beside noise that was chosen.
-struct OpenBias {
-  double Probability() const { return 1.0 / (1.0 + std::exp(-log_odds)); }
-
-  ErrorParameters expected;  ///< as of SlightBias
-  double log_odds = 0.0;     ///< against noise alone
 };
 
 /// What a search decided about one sensor: sequences by fix, wherever nodes
@@ -62,7 +53,7 @@ struct ErrorDecisions {
   double gain = 0.0;
   /// RegimeChoice::undecided, by fix; their log_posterior is the gain.
   std::vector<Hypothesis> undecided;
-  /// That noise does not rule out to kLeastGain.
+  /// RegimeChoice::open, or what was refused after it.
   std::optional<OpenBias> open;
   /// The likeliest noise, by fix, against which these were weighed.
   Hypothesis likeliest_noise;

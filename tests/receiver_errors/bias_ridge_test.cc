@@ -139,10 +139,70 @@ TEST(FollowBias, ExpectsTheVarianceOfTheMean) {
             VarianceOfMean(range.mean, 300.0));
 }
 
-/// What the noise hides is no ridge. Integrals over sigma and tau are those of a grid, which
-/// holds what the ridge has of the IMU and down as it is at its top.
+/// A density of ln x that is normal about ln of a typical x.
+double LogNormal(double x, double typical, double spread) {
+  const double z = std::log(x / typical) / spread;
+  return std::exp(-0.5 * z * z) / (spread * std::sqrt(2.0 * std::numbers::pi));
+}
+
+/// Over a dense grid of sigma and tau: of every tau with what is likeliest of the IMU and
+/// down, sought from its neighbour's on.
+struct DenseIntegrals {
+  double sum = 0.0;
+  double variance = 0.0;  ///< of the mean of the bias, expected
+  double slight_sum = 0.0;
+  double slight_variance = 0.0;
+};
+
+constexpr double kSigmaStep = 0.2;  // of the logarithm
+constexpr double kTauStep = 0.5;
+
+void AddSlice(const ErrorParameters& at, const ErrorParameters& from,
+              double best, const ParameterTuning& tuning, DenseIntegrals* all) {
+  for (double i = -60.0; i <= 20.0; ++i) {
+    ErrorParameters p = at;
+    p.sigma = from.sigma * std::exp(kSigmaStep * i);
+    p.down = std::clamp(at.down * at.sigma / p.sigma, 0.02, 50.0);
+    const double weight =
+        std::exp(tuning.Value(p) - best) * kSigmaStep * kTauStep;
+    const double slight = weight * LogNormal(p.sigma, from.sigma, 1.0) *
+                          LogNormal(p.tau, from.tau, 1.6) /
+                          LogNormal(p.sigma, from.sigma, 2.3) /
+                          LogNormal(p.tau, from.tau, 2.3);
+    const double variance = VarianceOfMean(p, 300.0);
+    all->sum += weight;
+    all->variance += weight * variance;
+    all->slight_sum += slight;
+    all->slight_variance += slight * variance;
+  }
+}
+
+DenseIntegrals IntegrateDensely(const ErrorParameters& likeliest,
+                                const ErrorParameters& from, double best,
+                                ParameterTuning* tuning) {
+  DenseIntegrals all;
+  AddSlice(likeliest, from, best, *tuning, &all);
+  for (const double step : {kTauStep, -kTauStep}) {
+    ErrorParameters at = likeliest;
+    for (int j = 0; j < 20; ++j) {
+      at.tau *= std::exp(step);
+      at.sigma *= std::exp(0.5 * step);
+      for (double ErrorParameters::*member :
+           {&ErrorParameters::sigma, &ErrorParameters::down,
+            &ErrorParameters::imu_scale}) {
+        tuning->ClimbAlone(member, at);
+        at = tuning->parameters();
+      }
+      AddSlice(at, from, best, *tuning, &all);
+    }
+  }
+  all.variance /= all.sum;
+  all.slight_variance /= all.slight_sum;
+  return all;
+}
+
+/// What the noise hides is no ridge.
 TEST(FollowBias, IntegratesOverSigmaAndTau) {
-  constexpr double kStep = 0.25;  // of ln sigma
   ErrorParameters from;
   from.sigma = kFixSigma;
   from.tau = 100.0;
@@ -151,43 +211,45 @@ TEST(FollowBias, IntegratesOverSigmaAndTau) {
   for (const double sigma : {0.0, 1.0 * kFixSigma, 5.0 * kFixSigma}) {
     const LinearTape linear = TapeWithErrors(sigma, 100.0);
     const SensorTape tape(linear, 0);
-    const ErrorParameters found = TuneParameters(tape, biased, from);
-    const BiasRange range = FollowBias(tape, biased, found, from);
-    const auto posterior = [&](const ErrorParameters& p) {
-      return ScoreSequence(tape, p, biased).log_likelihood +
-             LogPriorOf(biased, p, from);
-    };
-    const double best = posterior(range.likeliest);
-    double sum = 0.0;
-    double variances = 0.0;
-    for (double i = -48.0; i <= 12.0; ++i) {
-      for (double j = -10.0; j <= 10.0; ++j) {
-        ErrorParameters p = range.likeliest;
-        p.sigma = kFixSigma * std::exp(kStep * i);
-        p.down = range.likeliest.down * range.likeliest.sigma / p.sigma;
-        p.down = std::clamp(p.down, 0.02, 50.0);
-        p.tau = 100.0 * std::exp(4.0 * kStep * j);
-        const double weight = std::exp(posterior(p) - best);
-        sum += weight;
-        variances += weight * VarianceOfMean(p, 300.0);
-      }
-    }
-    // ln of the integral of the posterior by that of the prior, whose spread is 2.3.
-    const double log_share = std::log(sum * kStep * 4.0 * kStep /
-                                      (2.0 * std::numbers::pi * 2.3 * 2.3));
-    // What is made of each parameter by itself, with the gain, at those of the others.
-    const double each = LogShareOfPrior(tape, biased, range.likeliest, from);
+    const BiasRange range =
+        FollowBias(tape, biased, TuneParameters(tape, biased, from), from);
     ParameterTuning tuning(tape, biased, from, nullptr);
-    const double others =
-        each -
-        tuning.LogShareOfPrior(&ErrorParameters::sigma, range.likeliest, best) -
-        tuning.LogShareOfPrior(&ErrorParameters::tau, range.likeliest, best);
-    EXPECT_NEAR(each - others + range.log_gain, log_share, 0.5) << sigma;
-    EXPECT_NEAR(
-        std::log(VarianceOfMean(range.expected, 300.0) / (variances / sum)),
-        0.0, std::log(2.0))
+    const double best = tuning.Value(range.likeliest);
+    const DenseIntegrals grid =
+        IntegrateDensely(range.likeliest, from, best, &tuning);
+    // As if of each parameter by itself, with the gain; by the prior.
+    const double share =
+        tuning.LogShareOfPrior(&ErrorParameters::sigma, range.likeliest, best) +
+        tuning.LogShareOfPrior(&ErrorParameters::tau, range.likeliest, best) +
+        range.log_gain;
+    const double prior = std::log(2.0 * std::numbers::pi * 2.3 * 2.3);
+    constexpr double kLog = 0.25;
+    EXPECT_NEAR(share, std::log(grid.sum) - prior, kLog) << sigma;
+    EXPECT_NEAR(std::log(VarianceOfMean(range.expected, 300.0) / grid.variance),
+                0.0, kLog)
+        << sigma;
+    ASSERT_TRUE(range.slight.has_value());
+    EXPECT_NEAR(range.slight->log_gain, std::log(grid.slight_sum / grid.sum),
+                kLog)
+        << sigma;
+    EXPECT_NEAR(std::log(VarianceOfMean(range.slight->expected, 300.0) /
+                         grid.slight_variance),
+                0.0, kLog)
         << sigma;
   }
+}
+
+/// Where the effort does not suffice to follow it, nothing is told of what it began with.
+TEST(FollowBias, ThatWasNotFollowedLeavesNothingOpen) {
+  ErrorParameters from;
+  from.sigma = kFixSigma;
+  from.tau = 100.0;
+  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
+  biased.front().anew = true;
+  const LinearTape linear = TapeWithErrors(kFixSigma, 100.0);
+  const SensorTape tape(linear, 0);
+  SearchEffort effort(1.0, nullptr);
+  EXPECT_FALSE(FollowBias(tape, biased, from, from, &effort).slight);
 }
 
 /// As the double sum of its covariance over the duration.

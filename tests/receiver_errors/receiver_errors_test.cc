@@ -719,6 +719,32 @@ TEST(ReceiverErrors, ThatStayOpenExtendAProblem) {
                 "sigma 3 m (1.5 down), correlation time 90 s");
 }
 
+/// What stood on averages and does not on all fixes is not ruled out by that.
+TEST(ReceiverErrors, ThatAreRefusedOnAllFixesStayOpen) {
+  const TestProblem test = FixesOfOneMinute();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const SensorTape whole(tape, 0);
+  ErrorDecisions decisions(problem, tape, 0);
+  decisions.choice.chosen = 1;
+  Hypothesis one{ModeSequence(61, {.mode = ErrorMode::kBiased})};
+  one.sequence.front().anew = true;
+  one.parameters.sigma = 0.05;
+  one.parameters.tau = 50.0;
+  decisions.regimes.kind = ErrorRegimes::Kind::kGaussMarkov;
+  decisions.regimes.hypotheses = {one};
+  decisions.regimes.slight = SlightBias{one.parameters, 0.5};
+  SensorFindings found(decisions, tape);
+  const double gain = found.GainOn(whole);
+  ASSERT_LT(std::abs(gain), 4.0);
+  found.Refuse(whole);
+  ASSERT_TRUE(found.open.has_value());
+  EXPECT_NEAR(found.open->Probability(),
+              1.0 / (1.0 + 3.0 * std::exp(-gain - 0.5)), 1e-12);
+  EXPECT_EQ(found.open->expected.sigma, 0.05);
+  EXPECT_EQ(found.choice.refused.size(), 1u);
+}
+
 /// An error that grows by 3.6 m/s from 21 to 30 s.
 TestProblem WithFastDrift() {
   TestProblem test = FixesOfOneMinute();

@@ -15,6 +15,7 @@ using testing::AddError;
 using ::testing::DoubleEq;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::FieldsAre;
 using testing::Good;
 using ::testing::HasSubstr;
@@ -40,19 +41,32 @@ ErrorRegimes Regime(const LinearTape& tape, ErrorRegimes::Kind kind,
 
 using Kind = ErrorRegimes::Kind;
 
+auto Open(double log_odds) {
+  return Field(&OpenBias::log_odds, DoubleEq(log_odds));
+}
+
+/// Of positions of 0.5 m, with as much effort as is asked for.
+struct Posed {
+  explicit Posed(double duration) : Posed(PositionsOnly(duration)) {}
+  explicit Posed(const TestProblem& test, double stated_sigma = 0.5)
+      : tape(TapeOf(test)), problem{seen, stated_sigma, false, &effort} {}
+
+  LinearTape tape;
+  SensorTape seen{tape, 0};
+  SearchEffort effort{1e9, nullptr};
+  RegimeProblem problem;
+};
+
 auto Leaves(std::size_t index, double gain) {
   return FieldsAre(index, DoubleEq(gain));
 }
 
 TEST(RegimeChoice, NeedsOddsOfAThousand) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const Posed posed(30.0);
   for (const double gain : {6.8, 7.0}) {
-    const RegimeChoice choice = ChooseRegime(
-        problem,
-        {Regime(tape, Kind::kStated, 0.0), Regime(tape, Kind::kWhite, gain)});
+    const RegimeChoice choice =
+        ChooseRegime(posed.problem, {Regime(posed.tape, Kind::kStated, 0.0),
+                                     Regime(posed.tape, Kind::kWhite, gain)});
     EXPECT_EQ(choice.chosen, gain > kLeastGain ? 1u : 0u);
   }
 }
@@ -60,16 +74,14 @@ TEST(RegimeChoice, NeedsOddsOfAThousand) {
 /// A stated sigma has slow errors in it: beside fixes and an IMU that are both better than
 /// stated nothing tells whose what is slow is.
 TEST(RegimeChoice, GaussMarkovErrorsNeedFixesOrAnImuAsStated) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const Posed posed(30.0);
   const auto choose = [&](double scale, double imu_scale) {
-    ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, 20.0);
+    ErrorRegimes slow = Regime(posed.tape, Kind::kGaussMarkov, 20.0);
     slow.hypotheses[0].parameters.scale = scale;
     slow.hypotheses[0].parameters.imu_scale = imu_scale;
-    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
-                                  Regime(tape, Kind::kWhite, 1.0), slow});
+    return ChooseRegime(posed.problem,
+                        {Regime(posed.tape, Kind::kStated, 0.0),
+                         Regime(posed.tape, Kind::kWhite, 1.0), slow});
   };
   EXPECT_EQ(choose(1.0, 1.0).chosen, 2u);
   // Of one alone it may be said that it predicts worse.
@@ -87,16 +99,14 @@ TEST(RegimeChoice, GaussMarkovErrorsNeedFixesOrAnImuAsStated) {
 }
 
 TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const Posed posed(30.0);
   const auto choose = [&](double white, double switching) {
-    ErrorRegimes better = Regime(tape, Kind::kWhite, white);
+    ErrorRegimes better = Regime(posed.tape, Kind::kWhite, white);
     // As no batch is solved: it does not stand, but is a rival to what does.
     better.hypotheses[0].parameters.scale = 0.5;
-    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), better,
-                                  Regime(tape, Kind::kSwitching, switching)});
+    return ChooseRegime(posed.problem,
+                        {Regime(posed.tape, Kind::kStated, 0.0), better,
+                         Regime(posed.tape, Kind::kSwitching, switching)});
   };
   EXPECT_THAT(choose(0.0, -7.0).undecided, IsEmpty());
   EXPECT_THAT(choose(0.0, 1.1).undecided, ElementsAre(Leaves(2, 1.1)));
@@ -108,69 +118,59 @@ TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
 /// What is stated has no parameters, and wins over white noise by what these cost: that
 /// there is a slow error beside noise is not less likely for it.
 TEST(RegimeChoice, WeighsGaussMarkovErrorsAgainstWhiteNoise) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
+  const Posed posed(30.0);
   const auto choose = [&](double gauss_markov) {
-    ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, gauss_markov);
+    ErrorRegimes slow = Regime(posed.tape, Kind::kGaussMarkov, gauss_markov);
     slow.slight = SlightBias{{}, 0.5 - kLogOddsOfSlowErrors};
-    return ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
-                                  Regime(tape, Kind::kWhite, -6.0), slow});
+    return ChooseRegime(posed.problem,
+                        {Regime(posed.tape, Kind::kStated, 0.0),
+                         Regime(posed.tape, Kind::kWhite, -6.0), slow});
   };
   EXPECT_THAT(choose(-13.0).undecided, IsEmpty());
   EXPECT_FALSE(choose(-13.5).open.has_value());
   EXPECT_THAT(choose(-7.0).undecided, ElementsAre(Leaves(2, -1.0)));
-  EXPECT_THAT(choose(-7.0).open, Optional(Leaves(2, -0.5)));
-  EXPECT_THAT(choose(6.0).open, Optional(Leaves(2, 12.5)));
+  EXPECT_THAT(choose(-7.0).open, Optional(Open(-0.5)));
+  EXPECT_THAT(choose(6.0).open, Optional(Open(12.5)));
   EXPECT_EQ(choose(8.0).chosen, 2u);
   EXPECT_FALSE(choose(8.0).open.has_value());
 }
 
 /// However likely it is.
 TEST(RegimeChoice, LeavesOpenWhatDoesNotStandForAnotherReason) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  ErrorRegimes slow = Regime(tape, Kind::kGaussMarkov, 20.0);
+  const Posed posed(30.0);
+  ErrorRegimes slow = Regime(posed.tape, Kind::kGaussMarkov, 20.0);
   slow.hypotheses[0].parameters.scale = 0.2;
   slow.hypotheses[0].parameters.imu_scale = 0.1;
   slow.slight = SlightBias{{}, -kLogOddsOfSlowErrors};
-  const RegimeChoice choice =
-      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
-                             Regime(tape, Kind::kWhite, 1.0), slow});
+  const RegimeChoice choice = ChooseRegime(
+      posed.problem, {Regime(posed.tape, Kind::kStated, 0.0),
+                      Regime(posed.tape, Kind::kWhite, 1.0), slow});
   EXPECT_EQ(choice.chosen, 0u);
-  EXPECT_THAT(choice.open, Optional(Leaves(2, 19.0)));
+  EXPECT_THAT(choice.open, Optional(Open(19.0)));
 }
 
 /// By covariances, which move nothing.
 TEST(RegimeChoice, LeavesOpenWhatPredictsWorse) {
-  const LinearTape tape = TapeOf(PositionsOnly(300.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  ErrorRegimes worse = Regime(tape, Kind::kGaussMarkov, -1.0);
+  const Posed posed(300.0);
+  ErrorRegimes worse = Regime(posed.tape, Kind::kGaussMarkov, -1.0);
   worse.hypotheses[0].parameters.scale = 10.0;
   worse.slight = SlightBias{{}, -kLogOddsOfSlowErrors};
-  const RegimeChoice choice =
-      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
-                             Regime(tape, Kind::kWhite, 0.0), worse});
+  const RegimeChoice choice = ChooseRegime(
+      posed.problem, {Regime(posed.tape, Kind::kStated, 0.0),
+                      Regime(posed.tape, Kind::kWhite, 0.0), worse});
   EXPECT_THAT(choice.undecided, IsEmpty());
-  EXPECT_THAT(choice.open, Optional(Leaves(2, -1.0)));
+  EXPECT_THAT(choice.open, Optional(Open(-1.0)));
 }
 
 TEST(RegimeChoice, LeavesTheLikeliestOfEachKindUndecided) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  EXPECT_THAT(ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0),
-                                     Regime(tape, Kind::kGaussMarkov, -3.0),
-                                     Regime(tape, Kind::kSwitching, -4.0),
-                                     Regime(tape, Kind::kSwitching, -2.0)})
-                  .undecided,
-              ElementsAre(Leaves(3, -2.0), Leaves(1, -3.0)));
+  const Posed posed(30.0);
+  EXPECT_THAT(
+      ChooseRegime(posed.problem, {Regime(posed.tape, Kind::kStated, 0.0),
+                                   Regime(posed.tape, Kind::kGaussMarkov, -3.0),
+                                   Regime(posed.tape, Kind::kSwitching, -4.0),
+                                   Regime(posed.tape, Kind::kSwitching, -2.0)})
+          .undecided,
+      ElementsAre(Leaves(3, -2.0), Leaves(1, -3.0)));
 }
 
 TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
@@ -191,14 +191,11 @@ TEST(RegimeChoice, NeedsOddsOfAThousandBesideAnEstimatedClock) {
 }
 
 TEST(RegimeChoice, RefusesAValueAtItsBoundWhateverTheEvidence) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
+  const Posed posed(30.0);
+  ErrorRegimes white = Regime(posed.tape, Kind::kWhite, 1000.0);
   white.hypotheses[0].parameters.scale = 0.1;
-  const RegimeChoice choice =
-      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), white});
+  const RegimeChoice choice = ChooseRegime(
+      posed.problem, {Regime(posed.tape, Kind::kStated, 0.0), white});
   EXPECT_EQ(choice.chosen, 0u);
   ASSERT_EQ(choice.refused.size(), 1u);
   EXPECT_NE(choice.refused[0].find("at its bound"), std::string::npos);
@@ -227,15 +224,12 @@ TEST(RegimeChoice, AsksNothingOfTheLeastFactorOnATolerance) {
 }
 
 TEST(RegimeChoice, RefusesWhiteErrorsThatNoBatchIsSolvedWith) {
-  const LinearTape tape = TapeOf(PositionsOnly(30.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  ErrorRegimes white = Regime(tape, Kind::kWhite, 1000.0);
+  const Posed posed(30.0);
+  ErrorRegimes white = Regime(posed.tape, Kind::kWhite, 1000.0);
   white.hypotheses[0].parameters.scale = 0.5;
-  const RegimeChoice choice =
-      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), white,
-                             Regime(tape, Kind::kWhite, 3.0)});
+  const RegimeChoice choice = ChooseRegime(
+      posed.problem, {Regime(posed.tape, Kind::kStated, 0.0), white,
+                      Regime(posed.tape, Kind::kWhite, 3.0)});
   EXPECT_EQ(choice.chosen, 0u);
   ASSERT_EQ(choice.refused.size(), 1u);
   EXPECT_NE(choice.refused[0].find("take the fixes for 0.5"),
@@ -248,18 +242,15 @@ TEST(FitNoise, OfFixesBetterThanStatedIsThereAsTheBatchIsSolvedWith) {
   for (Measurement& z : test.measurements) {
     std::get<PositionFix>(z.model).R_n *= 9.0;
   }
-  const LinearTape tape = TapeOf(test);
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 1.5, false, &effort};
-  const std::vector<ErrorRegimes> all = FitNoise(problem);
+  const Posed posed(test, 1.5);
+  const std::vector<ErrorRegimes> all = FitNoise(posed.problem);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_LT(all[1].hypotheses[0].parameters.scale, 0.5);
   EXPECT_EQ(all[2].hypotheses[0].parameters.scale, 1.0);
   EXPECT_EQ(all[2].hypotheses[0].parameters.imu_scale, 1.0);
   EXPECT_GT(all[1].log_evidence - all[0].log_evidence, kLeastGain);
   EXPECT_LT(all[2].log_evidence - all[0].log_evidence, kLeastGain);
-  EXPECT_EQ(ChooseRegime(problem, all).chosen, 0u);
+  EXPECT_EQ(ChooseRegime(posed.problem, all).chosen, 0u);
 }
 
 /// Where only noise is sought, what cannot stand costs no integral, and is refused
@@ -283,18 +274,15 @@ TEST(FitNoise, DoesNotIntegrateWhatCannotStand) {
 }
 
 TEST(RegimeChoice, RefusesWhatPredictsHeldOutStretchesWorse) {
-  const LinearTape tape = TapeOf(PositionsOnly(90.0));
-  SearchEffort effort(1e9, nullptr);
-  const SensorTape seen(tape, 0);
-  const RegimeProblem problem{seen, 0.5, false, &effort};
-  ErrorRegimes absurd = Regime(tape, Kind::kSwitching, 1000.0);
+  const Posed posed(90.0);
+  ErrorRegimes absurd = Regime(posed.tape, Kind::kSwitching, 1000.0);
   absurd.hypotheses[0].parameters.scale = 0.12;
   absurd.hypotheses[0].parameters.rate_sigma = 1.0;
   for (ErrorStep& step : absurd.hypotheses[0].sequence) {
     step.velocity_step = true;
   }
-  const RegimeChoice choice =
-      ChooseRegime(problem, {Regime(tape, Kind::kStated, 0.0), absurd});
+  const RegimeChoice choice = ChooseRegime(
+      posed.problem, {Regime(posed.tape, Kind::kStated, 0.0), absurd});
   EXPECT_EQ(choice.chosen, 0u);
   ASSERT_EQ(choice.refused.size(), 1u);
   EXPECT_NE(choice.refused[0].find("held-out"), std::string::npos);
