@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "receiver_errors/bias_ridge.h"
+#include "receiver_errors/bias_range.h"
 #include "receiver_errors/hypothesis_search.h"
 #include "receiver_errors/normal_points.h"
 #include "receiver_errors/sensor_tape.h"

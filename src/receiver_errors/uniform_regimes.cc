@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "receiver_errors/bias_ridge.h"
+#include "receiver_errors/bias_range.h"
 #include "receiver_errors/error_tuning.h"
 #include "receiver_errors/regime_choice.h"
 #include "receiver_errors/sequence_refinement.h"

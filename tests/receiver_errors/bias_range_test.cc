@@ -1,4 +1,4 @@
-#include "receiver_errors/bias_ridge.h"
+#include "receiver_errors/bias_range.h"
 
 #include <gtest/gtest.h>
 
