@@ -24,6 +24,19 @@ using testing::TestProblemOptions;
 
 constexpr double kFixSigma = 2.0;  // [m]
 
+ErrorParameters Typical() {
+  ErrorParameters typical;
+  typical.sigma = kFixSigma;
+  typical.tau = 100.0;
+  return typical;
+}
+
+ModeSequence Throughout() {
+  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
+  biased.front().anew = true;
+  return biased;
+}
+
 /// Fixes with Gauss-Markov errors from the first to the last, so many times as large
 /// down, beside an IMU whose noise may be stated otherwise than it is.
 LinearTape TapeWithErrors(
@@ -52,8 +65,7 @@ struct Told {
 };
 
 Told TellOf(const LinearTape& tape, const ErrorParameters& from) {
-  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
-  biased.front().anew = true;
+  const ModeSequence biased = Throughout();
   const ErrorParameters found = TuneParameters({tape, 0}, biased, from);
   Told told{.range = FollowBias({tape, 0}, biased, found, from)};
   const auto posterior = [&](const ErrorParameters& p) {
@@ -65,9 +77,7 @@ Told TellOf(const LinearTape& tape, const ErrorParameters& from) {
 }
 
 TEST(FollowBias, GoesAsFarAsTheDataLeaveOpen) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
+  const ErrorParameters from = Typical();
   // The IMU tells all of an error that changes within seconds.
   const Told fast = TellOf(TapeWithErrors(5.0 * kFixSigma, 3.0), from);
   EXPECT_GE(fast.log_odds, 0.0);
@@ -89,9 +99,7 @@ TEST(FollowBias, GoesAsFarAsTheDataLeaveOpen) {
 /// The IMU is ten times better than stated: at the noise as stated what is slow would be
 /// its own, and the error one of seconds.
 TEST(FollowBias, TakesFromTheImuWhatTheSensorErrsBy) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
+  const ErrorParameters from = Typical();
   TestProblemOptions options = OfPositions(300.0, kFixSigma);
   options.noise.accel_noise_density *= 10.0;
   options.noise.gyro_noise_density *= 10.0;
@@ -104,9 +112,7 @@ TEST(FollowBias, TakesFromTheImuWhatTheSensorErrsBy) {
 /// Satellites are above: errors may be sideways alone. What says that there are none
 /// down is not to say that there are none of minutes.
 TEST(FollowBias, LeavesAnErrorSidewaysItsTime) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
+  const ErrorParameters from = Typical();
   const LinearTape tape = TapeWithErrors(5.0 * kFixSigma, 300.0,
                                          OfPositions(300.0, kFixSigma), 0.0);
   const Told told = TellOf(tape, from);
@@ -118,9 +124,7 @@ TEST(FollowBias, LeavesAnErrorSidewaysItsTime) {
 
 /// Nor does what errs down alone err sideways.
 TEST(FollowBias, LeavesTheOtherAxesToAnErrorDown) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
+  const ErrorParameters from = Typical();
   const Told told = TellOf(TapeWithErrors(kFixSigma / 50.0, 60.0,
                                           OfPositions(300.0, kFixSigma), 250.0),
                            from);
@@ -130,9 +134,7 @@ TEST(FollowBias, LeavesTheOtherAxesToAnErrorDown) {
 }
 
 TEST(FollowBias, ExpectsTheVarianceOfTheMean) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
+  const ErrorParameters from = Typical();
   const BiasRange range =
       TellOf(TapeWithErrors(5.0 * kFixSigma, 100.0), from).range;
   EXPECT_GT(VarianceOfMean(range.expected, 300.0),
@@ -203,11 +205,8 @@ DenseIntegrals IntegrateDensely(const ErrorParameters& likeliest,
 
 /// What the noise hides is no ridge.
 TEST(FollowBias, IntegratesOverSigmaAndTau) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
-  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
-  biased.front().anew = true;
+  const ErrorParameters from = Typical();
+  const ModeSequence biased = Throughout();
   for (const double sigma : {0.0, 1.0 * kFixSigma, 5.0 * kFixSigma}) {
     const LinearTape linear = TapeWithErrors(sigma, 100.0);
     const SensorTape tape(linear, 0);
@@ -241,11 +240,8 @@ TEST(FollowBias, IntegratesOverSigmaAndTau) {
 
 /// Where the effort does not suffice to follow it, nothing is told of what it began with.
 TEST(FollowBias, ThatWasNotFollowedLeavesNothingOpen) {
-  ErrorParameters from;
-  from.sigma = kFixSigma;
-  from.tau = 100.0;
-  ModeSequence biased(301, {.mode = ErrorMode::kBiased});
-  biased.front().anew = true;
+  const ErrorParameters from = Typical();
+  const ModeSequence biased = Throughout();
   const LinearTape linear = TapeWithErrors(kFixSigma, 100.0);
   const SensorTape tape(linear, 0);
   SearchEffort effort(1.0, nullptr);
