@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "evaluation/grade.h"
+#include "problems/method.h"
 
 namespace hindsight {
 namespace {
@@ -51,6 +52,16 @@ bool AreAtTheSameTimes(const std::vector<Pose>& a, const std::vector<Pose>& b) {
                     [](const Pose& one, const Pose& other) {
                       return std::abs(one.t - other.t) <= kSameTime;
                     });
+}
+
+/// Of poses in the order of time, of which there is one.
+std::size_t NearestTo(double t, const std::vector<Pose>& poses) {
+  const auto after =
+      std::lower_bound(poses.begin(), poses.end(), t,
+                       [](const Pose& pose, double at) { return pose.t < at; });
+  if (after == poses.end()) return poses.size() - 1;
+  const auto i = static_cast<std::size_t>(after - poses.begin());
+  return i > 0 && t - poses[i - 1].t < after->t - t ? i - 1 : i;
 }
 
 }  // namespace
@@ -121,7 +132,9 @@ MethodComparison::Course MethodComparison::CourseOf(
     const Solution& solution) const {
   const std::vector<int> components = PoseComponents(solution.layout);
   const std::size_t stride = solution.states.size() / terms_.most_nodes + 1;
-  Course course = {solution.method};
+  Course course = {
+      .method = solution.method,
+      .seeks = MethodOf(solution.method).Has(MethodTrait::kSearches)};
   for (std::size_t k = 0; k < solution.states.size(); k += stride) {
     course.poses.push_back(PoseOf(solution.states[k]));
     course.variances.emplace_back(
@@ -130,10 +143,14 @@ MethodComparison::Course MethodComparison::CourseOf(
   return course;
 }
 
-std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
+bool MethodComparison::Asks(const Solution& solution) const {
   const bool is_asked = terms_.of_all || (!solution.forward &&
                                           solution.grade != Grade::kUnusable);
-  if (!is_asked || solution.covariances.empty()) return std::nullopt;
+  return is_asked && !solution.covariances.empty();
+}
+
+std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
+  if (!Asks(solution)) return std::nullopt;
   const ErrorLayout layout = PoseLayout(solution.layout);
   Course own = CourseOf(solution);
   std::optional<Evidence> found;
@@ -165,6 +182,52 @@ std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
         .against = other.method};
   }
   courses_.push_back(std::move(own));
+  return found;
+}
+
+std::vector<std::pair<std::string, Evidence>> MethodComparison::TooSure(
+    const Solution& solution) const {
+  std::vector<std::pair<std::string, Evidence>> found;
+  if (!Asks(solution)) return found;
+  const ErrorLayout layout = PoseLayout(solution.layout);
+  const Course own = CourseOf(solution);
+  for (const Course& other : courses_) {
+    if (other.seeks == own.seeks) continue;
+    const Course& sure = own.seeks ? other : own;
+    const Course& searched = own.seeks ? own : other;
+    const bool same = AreAtTheSameTimes(sure.poses, searched.poses);
+    Variances squares = Variances::Zero(layout.dim());
+    for (std::size_t k = 0; k < sure.poses.size(); ++k) {
+      const std::size_t i =
+          same ? k : NearestTo(sure.poses[k].t, searched.poses);
+      Variances expected = searched.variances[i];
+      if (same) {
+        const Variances apart =
+            Local(layout, StateAt(sure.poses[k]), StateAt(searched.poses[i]));
+        expected += apart.cwiseAbs2();
+      }
+      squares += expected.cwiseQuotient(sure.variances[k]);
+    }
+    int worst = 0;
+    const double sigmas = std::sqrt(squares.maxCoeff(&worst) /
+                                    static_cast<double>(sure.poses.size()));
+    if (!(sigmas > kUnusableBias)) continue;
+    found.emplace_back(
+        sure.method,
+        Evidence{.rule = "too_sure",
+                 .grade = Grade::kDoubtful,
+                 .what = fmt::format(
+                     "by the errors of sensors that {} finds or cannot rule "
+                     "out, {} is {:.2g} sigma off (limit {:.0f})",
+                     searched.method, layout.ComponentName(worst), sigmas,
+                     kUnusableBias),
+                 .value = sigmas,
+                 .limit = kUnusableBias,
+                 .unit = "sigma",
+                 .causes = {"errors of a sensor that last longer than those of "
+                            "its stated noise"},
+                 .better_methods = {searched.method}});
+  }
   return found;
 }
 

@@ -69,15 +69,28 @@ class MethodComparison {
   /// mean square over the interval. Solutions on other nodes say nothing.
   std::optional<Evidence> Compare(const Solution& solution);
 
+  /// Evidence, by method, that makes methods doubtful which take the sensors at their
+  /// word: by the one that seeks their errors (MethodTrait::kSearches) a component of
+  /// position or attitude is kUnusableBias of the method's own standard deviation off, in
+  /// the root mean square of
+  ///   sqrt(d^2 + P_s) / sqrt(P_m)
+  /// over the interval, P_s and P_m being the variances of the one that seeks and of the
+  /// method, d the distance between them, which is left out on other nodes. `solution` is
+  /// graded, and not compared yet; the other is an earlier one.
+  std::vector<std::pair<std::string, Evidence>> TooSure(
+      const Solution& solution) const;
+
  private:
   /// Of position and attitude [m^2, rad^2].
   using Variances = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   struct Course {
     std::string method;
+    bool seeks = false;  ///< the errors of sensors
     std::vector<Pose> poses = {};
     std::vector<Variances> variances = {};
   };
 
+  bool Asks(const Solution& solution) const;
   Course CourseOf(const Solution& solution) const;
 
   ComparisonTerms terms_;

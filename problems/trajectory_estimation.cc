@@ -190,6 +190,7 @@ class TrajectoryEstimation final : public Estimation {
          .disagreement = DisagreementOf(method, solution),
          .mounting_sigma = forward.dataset().mounting_sigma},
         forward.unobserved(), &solution);
+    solution.compared = methods_.TooSure(solution);
     if (auto apart = methods_.Compare(solution)) {
       AddEvidence(*std::move(apart), &solution);
     }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -255,11 +256,19 @@ void ShareFindings(std::vector<Solution>* solutions) {
       found.back().what = solution.method + ": " + one.what;
     }
   }
+  std::multimap<std::string, Evidence> compared;
+  for (const Solution& solution : *solutions) {
+    compared.insert(solution.compared.begin(), solution.compared.end());
+  }
   for (Solution& solution : *solutions) {
     const bool is_asked = !solution.forward && solution.usable() &&
                           solution.layout.Has(BlockKind::kPosition);
     if (!is_asked) continue;
     for (const Evidence& one : found) AddEvidence(one, &solution);
+    const auto [begin, end] = compared.equal_range(solution.method);
+    for (auto one = begin; one != end; ++one) {
+      AddEvidence(one->second, &solution);
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "state/covariance_series.h"
@@ -93,7 +94,10 @@ struct Solution {
   std::vector<BoundedValue> bounded;
   Grade grade = Grade::kUsable;
   std::vector<Evidence> evidence;  ///< what `grade` is concluded from
-  std::string verdict;             ///< in words: the grade, and why
+  /// What comparing it with earlier methods shows of either, by method
+  /// (ShareFindings).
+  std::vector<std::pair<std::string, Evidence>> compared;
+  std::string verdict;  ///< in words: the grade, and why
 
   bool usable() const { return grade == Grade::kUsable; }
 };
@@ -113,6 +117,7 @@ inline Solution WithoutSeries(const Solution& solution) {
   out.seconds = solution.seconds;
   out.grade = solution.grade;
   out.evidence = solution.evidence;
+  out.compared = solution.compared;
   out.verdict = solution.verdict;
   return out;
 }

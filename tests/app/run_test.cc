@@ -580,5 +580,35 @@ TEST(RunCommand, IsNotUsableBesideASearchThatDoubtsIt) {
   EXPECT_THAT(batch["nees"]["position"].get<double>(), Gt(30.0));
 }
 
+/// Slow errors of a camera, which the search finds and every other method takes for what
+/// its noise leaves: `batch` is wrong, in whichever order the two are asked for.
+TEST(RunCommand, IsTooSureBesideASearchThatFindsSlowErrors) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(Hindsight({"simulate", "test_hand", "--seed=661", "--duration=120",
+                       "--out=hand", "--quiet"},
+                      folder.path())
+                .status,
+            0);
+  for (const std::string methods : {"batch,robust_batch", "robust_batch,rts"}) {
+    EXPECT_EQ(
+        Hindsight({"run", "hand/config.yaml", "--methods=" + methods,
+                   "--seed=661", "--out=out", "--force",
+                   "--inject=camera:multipath=0.04m,from=0s,to=241s,tau=60s"},
+                  folder.path())
+            .status,
+        0);
+    const nlohmann::json summary =
+        nlohmann::json::parse(ReadFile(folder.path() / "out/summary.json"));
+    EXPECT_EQ(summary["best"], "robust_batch") << methods;
+    const std::string other = methods[0] == 'b' ? "batch" : "rts";
+    const nlohmann::json& plain = summary["methods"][other];
+    EXPECT_EQ(plain["grade"], "doubtful");
+    EXPECT_THAT(plain["verdict"].get<std::string>(),
+                HasSubstr("by the errors of sensors that robust_batch finds or "
+                          "cannot rule out, position["));
+    EXPECT_THAT(plain["nees"]["position"].get<double>(), Gt(30.0)) << other;
+  }
+}
+
 }  // namespace
 }  // namespace hindsight

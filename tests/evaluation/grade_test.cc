@@ -505,6 +505,22 @@ TEST(ShareFindings, WhatASearchDoubtsHoldsForAllThatSeeTheWholeInterval) {
   }
 }
 
+TEST(ShareFindings, WhatAComparisonShowsIsOfTheMethodThatItNames) {
+  std::vector<Solution> all = {WithPositions("batch"), WithPositions("ekf"),
+                               WithPositions("robust_batch"),
+                               WithPositions("rts")};
+  all[1].forward = true;
+  const Evidence sure = {
+      .rule = "too_sure", .grade = Grade::kDoubtful, .what = "4 sigma off"};
+  all[2].compared = {{"ekf", sure}, {"rts", sure}};
+  for (int twice = 0; twice < 2; ++twice) {
+    ShareFindings(&all);
+    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_TRUE(all[i].usable()) << i;
+    EXPECT_EQ(all[3].evidence.size(), 1u);
+    EXPECT_THAT(all[3].verdict, StartsWith("doubtful: 4 sigma off"));
+  }
+}
+
 /// Nor does any other rule tell of other methods.
 TEST(ShareFindings, ASearchThatWasEndedSaysNothing) {
   std::vector<Solution> all = {WithPositions("batch"),

@@ -98,6 +98,77 @@ TEST(MethodComparison, WhatIsRefutedForwardOrElsewhereSaysNothing) {
   EXPECT_FALSE(comparison.Compare(EndedBy("rts", 0, 0.0)));
 }
 
+/// With the variances of `component` `factor` times as large.
+Solution Widened(Solution solution, int component, double factor) {
+  for (std::size_t k = 0; k < solution.states.size(); ++k) {
+    ErrorMatrix P = solution.covariances.Get(k);
+    P(component, component) *= factor;
+    solution.covariances.Set(k, P);
+  }
+  return solution;
+}
+
+TEST(MethodComparison, IsTooSureWhoseErrorsASearchKnowsToBeThreeSigmas) {
+  const auto sigmas = [](const Solution& first, const Solution& second) {
+    MethodComparison comparison(TrajectoryTerms());
+    EXPECT_TRUE(comparison.TooSure(first).empty());
+    comparison.Compare(first);
+    const auto found = comparison.TooSure(second);
+    if (found.empty()) return 0.0;
+    EXPECT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].first, "rts");
+    EXPECT_EQ(found[0].second.grade, Grade::kDoubtful);
+    EXPECT_THAT(found[0].second.better_methods,
+                ::testing::ElementsAre("robust_batch"));
+    return *found[0].second.value;
+  };
+  for (const int component : {0, 2, 6, 8}) {
+    const Solution plain = EndedBy("rts", component, 0.0);
+    const auto held = [&](double factor, double moved) {
+      return Widened(EndedBy("robust_batch", component, moved), component,
+                     factor);
+    };
+    EXPECT_NEAR(sigmas(plain, held(10.0, 0.0)), std::sqrt(10.0), 1e-6);
+    EXPECT_NEAR(sigmas(held(10.0, 0.0), plain), std::sqrt(10.0), 1e-6);
+    EXPECT_EQ(sigmas(plain, held(8.9, 0.0)), 0.0);
+    // Its own moves add to what it does not know: of one node of three.
+    EXPECT_NEAR(sigmas(plain, held(8.0, 3.0)), std::sqrt(8.0 + 3.0), 1e-3);
+    // Two that take sensors at their word say nothing of each other.
+    MethodComparison comparison(TrajectoryTerms());
+    comparison.Compare(plain);
+    EXPECT_TRUE(
+        comparison
+            .TooSure(Widened(EndedBy("batch", component, 0.0), component, 20.0))
+            .empty());
+  }
+}
+
+TEST(MethodComparison, OfOtherNodesTheVariancesAloneSayWhoIsTooSure) {
+  const Solution plain = EndedBy("batch", 0, 0.0);
+  for (const double shift : {0.0, 0.1, -0.1, 0.9}) {
+    Solution searched = Widened(EndedBy("robust_batch", 0, 9.0), 0, 8.0);
+    for (State& x : searched.states) x.t += shift;
+    MethodComparison comparison(TrajectoryTerms());
+    comparison.Compare(plain);
+    EXPECT_EQ(comparison.TooSure(searched).size(), shift == 0.0 ? 1u : 0u);
+    searched = Widened(searched, 0, 2.0);
+    EXPECT_EQ(comparison.TooSure(searched).size(), 1u) << shift;
+  }
+}
+
+TEST(MethodComparison, ForwardOrRefutedNoneIsTooSure) {
+  MethodComparison comparison(TrajectoryTerms());
+  Solution forward = EndedBy("ekf", 0, 0.0);
+  forward.forward = true;
+  comparison.Compare(forward);
+  Solution searched = Widened(EndedBy("robust_batch", 0, 0.0), 0, 100.0);
+  EXPECT_TRUE(comparison.TooSure(searched).empty());
+  comparison.Compare(EndedBy("batch", 0, 0.0));
+  EXPECT_EQ(comparison.TooSure(searched).size(), 1u);
+  searched.grade = Grade::kUnusable;
+  EXPECT_TRUE(comparison.TooSure(searched).empty());
+}
+
 TEST(MethodComparison, OfAttitudeAloneTheForwardMethodIsAskedToo) {
   ErrorLayout layout;
   for (const BlockKind kind : {BlockKind::kGyroBias, BlockKind::kAttitude}) {
