@@ -108,15 +108,15 @@ void ImuFactor::LinearizeRate(const StateBlocks::Entry& entry,
                               Jacobian* J) const {
   if (!step.rate) return;
   const int dim = FullDimension(step.key.kind);
-  const double dt = summary_->dt();
+  const double by = step.rate_share * summary_->dt();
   for (const StateBlocks::Entry& other : blocks().entries()) {
     if (!(other.block.key == *step.rate)) continue;
     residual.segment(entry.tangent, dim) -=
-        dt * states[0].parameters.segment(other.block.parameter_offset, dim);
+        by * states[0].parameters.segment(other.block.parameter_offset, dim);
     if (J == nullptr) continue;
     J->block(entry.tangent, ColumnOf(other, 0), dim, dim)
         .diagonal()
-        .setConstant(-dt);
+        .setConstant(-by);
   }
 }
 

@@ -47,7 +47,8 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
     ErrorStep step, const FixView& view) const {
-  return Likelihood(DynamicsOf(parameters_, step, dt_), step.outlier, view);
+  return Likelihood(DynamicsOf(parameters_, step, dt_, since_), step.outlier,
+                    view);
 }
 
 ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,

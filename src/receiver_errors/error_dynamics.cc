@@ -4,7 +4,8 @@
 
 namespace hindsight {
 
-ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
+ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
+                         double since) {
   ErrorDynamics d;
   d.q_vv = step.velocity_step ? p.rate_sigma * p.rate_sigma : 0.0;
   switch (step.mode) {
@@ -26,8 +27,8 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt) {
       d.er = step.anew ? 0.0 : dt;
       d.rr = step.anew ? 0.0 : 1.0;
       d.q_rr = step.anew ? rate : rate * kDriftWalk * kDriftWalk * dt;
-      d.q_er = step.anew ? rate * dt : 0.0;
-      d.q_ee = step.anew ? rate * dt * dt : 0.0;
+      d.q_er = step.anew ? rate * since / 2.0 : 0.0;
+      d.q_ee = step.anew ? rate * since * since / 3.0 : 0.0;
       break;
     }
   }

@@ -37,6 +37,7 @@ ErrorStates::ErrorStates(const LinearTape& tape, int receiver,
     : tape_(tape),
       receiver_(receiver),
       rows_(RowsOf(tape, receiver)),
+      since_fix_(TimesSinceFix(tape, receiver)),
       floor_(kNoError * stated_sigma),
       unit_(unit),
       kind_(kind),
@@ -168,7 +169,8 @@ std::vector<BlockStep> ErrorStates::StepsTo(
   const ErrorStep& before = chosen_.steps[k - 1];
   const ErrorStep& step = chosen_.steps[k];
   const double dt = tape_.t(k) - tape_.t(k - 1);
-  const ErrorDynamics d = DynamicsOf(parameters, step, dt);
+  const double since = since_fix_[k];
+  const ErrorDynamics d = DynamicsOf(parameters, step, dt, since);
   const double rate = parameters.rate_sigma * parameters.rate_sigma;
   BlockStep e = {.key = {BlockKind::kSensorError, receiver_},
                  .phi = d.ee,
@@ -184,7 +186,11 @@ std::vector<BlockStep> ErrorStates::StepsTo(
     r.phi = 1.0;
     r.variance = rate * kDriftWalk * kDriftWalk * dt;
   }
-  if (drifts && step.anew && !follows) e.variance = floor_ * floor_;
+  if (drifts && step.anew && !follows) {
+    // What is left of w_e beside the r that is known from here on.
+    e.rate_share = d.q_er / d.q_rr / dt;
+    e.variance = d.q_ee - d.q_er * d.q_er / d.q_rr + floor_ * floor_;
+  }
   return {e, r};
 }
 

@@ -1,6 +1,7 @@
 #include "receiver_errors/sensor_tape.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "base/gap.h"
 
@@ -8,8 +9,10 @@ namespace hindsight {
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
+  const std::vector<double> since_fix = TimesSinceFix(tape, sensor);
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
+    nodes_[k].since_fix = since_fix[k];
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
     if (k == 0) continue;
     // A copy takes no more memory than it needs.
@@ -65,6 +68,16 @@ void SensorTape::SetNoisy() {
   for (std::size_t i = 0; i < has_noise.size(); ++i) {
     if (has_noise[i] != 0) noisy_.push_back(static_cast<Eigen::Index>(i));
   }
+}
+
+std::vector<double> TimesSinceFix(const LinearTape& tape, int sensor) {
+  std::vector<double> since;
+  double last = tape.size() == 0 ? 0.0 : tape.t(0);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    since.push_back(tape.t(k) - last);
+    if (HasFix(tape, k, sensor)) last = tape.t(k);
+  }
+  return since;
 }
 
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {

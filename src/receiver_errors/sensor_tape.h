@@ -31,6 +31,8 @@ class SensorTape {
   /// by the mean interval and the number of fixes, of which twenty are the least. A gap is
   /// as many as it lacks.
   double share(std::size_t k) const { return nodes_[k].share; }
+  /// As of TimesSinceFix.
+  double since_fix(std::size_t k) const { return nodes_[k].since_fix; }
   /// Of a velocity step at a fix: back to the last node that saw the position, or had a
   /// fix of the sensor [s].
   double reach(std::size_t k) const { return nodes_[k].reach; }
@@ -45,6 +47,7 @@ class SensorTape {
   struct Node {
     bool has_fix = false;
     double share = 0.0;
+    double since_fix = 0.0;
     double reach = 0.0;
     SparseCongruence over_interval;
   };
@@ -62,6 +65,8 @@ class SensorTape {
 
 /// Whether the node has a fix of the sensor that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
+/// By node: since the fix before it, without one since the first node [s].
+std::vector<double> TimesSinceFix(const LinearTape& tape, int sensor);
 /// The fixes, counted from 0, before which there are none for longer than
 /// LongestSpacingWithoutGap, in order.
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);

@@ -10,13 +10,14 @@ namespace hindsight {
 
 /// How a block b beyond the navigation state goes through one interval of
 /// length dt, an axis:
-///   b_j = phi b_i + r_i dt + w,   w ~ (0, variance),
-/// r being the block `rate`, as far as there is one.
+///   b_j = phi b_i + r_i share dt + w,   w ~ (0, variance),
+/// r being the block `rate`, as far as there is one, which acts for `rate_share` of dt.
 struct BlockStep {
   BlockKey key;
   double phi = 1.0;
   double variance = 0.0;
   std::optional<BlockKey> rate = std::nullopt;
+  double rate_share = 1.0;  ///< beyond 1 where it began before the interval
   double down = 1.0;  ///< sigma of w in the third axis, by that of the others
 
   double VarianceOf(int axis) const {

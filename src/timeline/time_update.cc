@@ -35,7 +35,7 @@ void AdvanceGivenSteps(const ErrorLayout& layout, const NodeInterval& interval,
     auto b = x_j->parameters.segment(block->parameter_offset, dim);
     b = step.phi * x_i.parameters.segment(block->parameter_offset, dim);
     if (const Block* rate = RateOf(layout, step)) {
-      b += interval.summary.dt() *
+      b += step.rate_share * interval.summary.dt() *
            x_i.parameters.segment(rate->parameter_offset, dim);
     }
   }
@@ -59,8 +59,9 @@ void LinearizeGivenSteps(const ErrorLayout& layout,
       out->c(component) =
           step.phi * x_i.parameters(parameter) - x_j.parameters(parameter);
       if (rate != nullptr) {
-        out->Phi(component, rate->offset + axis) = dt;
-        out->c(component) += dt * x_i.parameters(rate->parameter_offset + axis);
+        const double by = step.rate_share * dt;
+        out->Phi(component, rate->offset + axis) = by;
+        out->c(component) += by * x_i.parameters(rate->parameter_offset + axis);
       }
       ++component;
     }

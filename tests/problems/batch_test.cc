@@ -159,7 +159,8 @@ TEST(Batch, OneGaussNewtonStepEqualsOneRtsPass) {
   }
 }
 
-/// An error of a receiver that goes from node to node otherwise down than sideways.
+/// An error of a receiver that goes from node to node otherwise down than sideways, and by
+/// a rate that acts for longer than between them.
 TEST(Batch, GoesByGivenStepsAsTheSmootherDoes) {
   TestProblemOptions options;
   options.noise = TacticalNoise(true);
@@ -169,13 +170,22 @@ TEST(Batch, GoesByGivenStepsAsTheSmootherDoes) {
   error.evolution = Evolution::GaussMarkov(2.0, 10.0);
   error.sigma0 = Eigen::Vector3d(2.0, 2.0, 0.6);
   options.layout.Add(error);
+  Block rate;
+  rate.key = {BlockKind::kErrorRate, 0};
+  rate.sigma0.setConstant(0.4);
+  options.layout.Add(rate);
   options.duration = 10.0;
   const TestProblem problem = MakeProblem(options, 11);
   Problem posed = problem.Pose(All(problem));
   posed.timeline.SetBlockSteps(
       {problem.nodes.size() - 1,
-       {BlockStep{
-           .key = error.key, .phi = 0.9, .variance = 0.76, .down = 0.3}}});
+       {BlockStep{.key = error.key,
+                  .phi = 0.9,
+                  .variance = 0.76,
+                  .rate = rate.key,
+                  .rate_share = 1.7,
+                  .down = 0.3},
+        BlockStep{.key = rate.key, .phi = 0.95, .variance = 0.01}}});
   const SmoothedTrajectory rts =
       SmoothRts(RunLinearizedFilter(problem.truth, &posed));
   ChainProblem chain(problem.truth, &posed);

@@ -184,7 +184,7 @@ TEST(ReceiverErrors, OfFastFixesLeaveThemTheirNoise) {
   for (Measurement& z : test.measurements) {
     if (z.t < 20.5 || z.t >= 40.3) continue;
     auto& fix = std::get<PositionFix>(z.model);
-    fix.p_e += NedAxes(fix.p_e).col(0) * (8.0 * (z.t - 20.4));
+    fix.p_e += NedAxes(fix.p_e).col(0) * (8.0 * (z.t - 20.5));
   }
   const Found found(test);
   ASSERT_TRUE(found.errors.Stands());
@@ -764,6 +764,30 @@ TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   EXPECT_THAT(found.errors.InWords(), HasSubstr("drifting from"));
   const std::vector<State> states = found.errors.States(found.problem.layout);
   EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
+}
+
+/// An error that begins where no fix sees it is one drift, not a bias that drifts on.
+TEST(ReceiverErrors, MayBeginToDriftWithinAGap) {
+  TestProblem test = FixesOfOneMinute();
+  GateDecisions used;
+  for (Measurement& z : test.measurements) {
+    used.push_back(static_cast<char>(z.t < 13.5 || z.t > 20.5));
+    if (z.t < 17.5 || z.t > 32.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e += NedAxes(fix.p_e) *
+               Eigen::Vector3d(1.5 * (z.t - 17.5), -2.0 * (z.t - 17.5), 0.0);
+  }
+  Problem problem = test.Pose(used);
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors errors = FindThem(problem, tape);
+  ASSERT_TRUE(errors.Stands());
+  EXPECT_THAT(errors.InWords(),
+              AllOf(HasSubstr("drifting from"), Not(HasSubstr("biased"))));
+  errors.Extend(&problem);
+  const std::vector<State> states = errors.States(problem.layout);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 3.0) << k;
+  }
 }
 
 TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {

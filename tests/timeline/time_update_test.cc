@@ -28,12 +28,13 @@ TestProblem DriftingProblem() {
   return MakeProblem(options, 1);
 }
 
-/// A drift over the first interval, another error over the second.
+/// A drift that began before the first interval, another error over the second.
 std::vector<std::vector<BlockStep>> Steps() {
   const BlockKey e = {BlockKind::kSensorError, 0};
   const BlockKey r = {BlockKind::kErrorRate, 0};
   return {
-      {{e, 1.0, 1e-6, r}, {r, 1.0, 4e-7}},
+      {{.key = e, .phi = 1.0, .variance = 1e-6, .rate = r, .rate_share = 2.5},
+       {r, 1.0, 4e-7}},
       {{.key = e, .phi = 0.9, .variance = 0.19, .down = 2.0}, {r, 0.0, 0.25}},
       {{e, 0.0, 1.0}, {r, 0.0, 0.25}}};
 }
@@ -59,12 +60,12 @@ TEST(TimeUpdate, TakesTheStepsOfTheTimelineInPlaceOfEvolutions) {
   const NodeInterval drifting = IntervalAfter(0, layout, x, &timeline);
   const State next = Advance(layout, drifting, x);
   const Eigen::Vector3d moved = next.parameters.segment<3>(e.parameter_offset);
-  EXPECT_TRUE(moved.isApprox(Eigen::Vector3d(1.1, 1.8, 3.3), 1e-12));
+  EXPECT_TRUE(moved.isApprox(Eigen::Vector3d(1.25, 1.5, 3.75), 1e-12));
   Transition transition;
   LinearizeAdvance(layout, drifting, x, next, &transition);
   EXPECT_LT(transition.c.norm(), 1e-6);
   EXPECT_DOUBLE_EQ(transition.Phi(e.offset + 1, r.offset + 1),
-                   drifting.summary.dt());
+                   2.5 * drifting.summary.dt());
   EXPECT_DOUBLE_EQ(transition.Phi(r.offset, r.offset), 1.0);
   EXPECT_DOUBLE_EQ(transition.Q(r.offset, r.offset), 4e-7);
   const NodeInterval biased = IntervalAfter(1, layout, x, &timeline);

@@ -1,0 +1,52 @@
+#include "receiver_errors/error_dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace hindsight {
+namespace {
+
+constexpr ErrorStep kBegins = {ErrorMode::kDrifting, true};
+
+/// Moments of an error r u, u being uniform over the time since the fix before, by the
+/// midpoint rule; what has been good before adds none.
+TEST(ErrorDynamics, ADriftBeganAtAnyTimeSinceTheFixBefore) {
+  ErrorParameters p;
+  p.rate_sigma = 0.3;
+  constexpr int kPieces = 100000;
+  for (const double since : {0.2, 1.0, 7.5}) {
+    double ee = 0.0;
+    double er = 0.0;
+    for (int i = 0; i < kPieces; ++i) {
+      const double u = since * (i + 0.5) / kPieces;
+      ee += u * u * 0.09 / kPieces;
+      er += u * 0.09 / kPieces;
+    }
+    // Whatever other nodes there are in between.
+    for (const double dt : {0.2, 0.1}) {
+      const ErrorDynamics d = DynamicsOf(p, kBegins, dt, since);
+      EXPECT_NEAR(d.q_ee, ee, 1e-8 * ee);
+      EXPECT_NEAR(d.q_er, er, 1e-8 * er);
+      EXPECT_DOUBLE_EQ(d.q_rr, 0.09);
+      EXPECT_EQ(d.ee, 1.0);
+      EXPECT_EQ(d.er, 0.0);
+      EXPECT_EQ(d.rr, 0.0);
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> Q(
+          ErrorQ(d));
+      EXPECT_GT(Q.eigenvalues().minCoeff(), 0.0);
+    }
+  }
+}
+
+/// A drift that goes on knows nothing of the time since the fix before.
+TEST(ErrorDynamics, ADriftGoesOnByItsRate) {
+  const ErrorParameters p;
+  const ErrorDynamics d = DynamicsOf(p, {ErrorMode::kDrifting}, 0.5, 9.0);
+  EXPECT_EQ(d.er, 0.5);
+  EXPECT_EQ(d.q_ee, 0.0);
+  EXPECT_EQ(d.q_er, 0.0);
+}
+
+}  // namespace
+}  // namespace hindsight
