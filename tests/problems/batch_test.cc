@@ -172,6 +172,7 @@ TEST(Batch, GoesByGivenStepsAsTheSmootherDoes) {
   options.layout.Add(error);
   Block rate;
   rate.key = {BlockKind::kErrorRate, 0};
+  rate.evolution = Evolution::GaussMarkov(0.4, 10.0);
   rate.sigma0.setConstant(0.4);
   options.layout.Add(rate);
   options.duration = 10.0;
