@@ -22,9 +22,9 @@ void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
   for (int i = 0; i < 3; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;
-    (*P)(p, p) += variance * reach * reach;
-    (*P)(p, v) += variance * reach;
-    (*P)(v, p) += variance * reach;
+    (*P)(p, p) += variance * reach * reach / 3.0;
+    (*P)(p, v) += variance * reach / 2.0;
+    (*P)(v, p) += variance * reach / 2.0;
     (*P)(v, v) += variance;
   }
 }

@@ -15,10 +15,10 @@ inline constexpr double kDriftWalk = 1e-3;
 /// Over an interval, an axis:
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
-/// and a jump of the velocity of variance q_vv where it begins. Down, the third axis, w_e
-/// has `down` times the sigma of the others. A drift of a new rate r ~ N(0, s^2) began at
-/// any time since the fix before, `since` before the interval's end, one as likely as
-/// another: w_e is r times what is left of it from there, of which the moments are
+/// and a jump of the velocity of variance q_vv. Down, the third axis, w_e has `down` times
+/// the sigma of the others. A drift of a new rate r ~ N(0, s^2) began at any time since the
+/// fix before, `since` before the interval's end, one as likely as another: w_e is r times
+/// what is left of it from there, of which the moments are
 ///   q_ee = s^2 since^2 / 3,   q_er = s^2 since / 2,   q_rr = s^2.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;

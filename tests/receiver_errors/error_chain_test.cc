@@ -185,7 +185,7 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
   }
 }
 
-/// A step of the velocity behind a gap is one at its begin.
+/// A step of the velocity behind a gap was at any time of it: moments of dv u, u uniform.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
   constexpr std::size_t kBegin = 15;
   constexpr std::size_t kEnd = 25;
@@ -209,8 +209,9 @@ TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
     const ErrorMatrix added =
         ErrorChain::Resized(stepped, n).P - ErrorChain::Resized(x, n).P;
     const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-    EXPECT_TRUE((added.block<3, 3>(pos, pos).isApprox(q * T * T * I, 1e-9)));
-    EXPECT_TRUE((added.block<3, 3>(pos, vel).isApprox(q * T * I, 1e-9)));
+    EXPECT_TRUE(
+        (added.block<3, 3>(pos, pos).isApprox(q * T * T / 3.0 * I, 1e-9)));
+    EXPECT_TRUE((added.block<3, 3>(pos, vel).isApprox(q * T / 2.0 * I, 1e-9)));
     EXPECT_TRUE((added.block<3, 3>(vel, vel).isApprox(q * I, 1e-9)));
     EXPECT_NEAR(before.log, chain.LikelihoodOfFix(kStepVelocity, stepped).log,
                 1e-9);
@@ -234,7 +235,7 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
   EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
-              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
+              p.rate_sigma * p.rate_sigma * dt * dt / 3.0, 1e-9);
 }
 
 /// What a velocity was at its last fix is known, however long ago the position was.
@@ -254,7 +255,7 @@ TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
   EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
-              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
+              p.rate_sigma * p.rate_sigma * dt * dt / 3.0, 1e-9);
 }
 
 }  // namespace
