@@ -54,6 +54,13 @@ bool AreAtTheSameTimes(const std::vector<Pose>& a, const std::vector<Pose>& b) {
                     });
 }
 
+/// Whether it is a method that seeks errors of sensors.
+bool Seeks(const std::string& name) {
+  return std::ranges::any_of(Methods(), [&name](const Method* method) {
+    return method->name == name && method->Has(MethodTrait::kSearches);
+  });
+}
+
 /// Of poses in the order of time, of which there is one.
 std::size_t NearestTo(double t, const std::vector<Pose>& poses) {
   const auto after =
@@ -132,9 +139,7 @@ MethodComparison::Course MethodComparison::CourseOf(
     const Solution& solution) const {
   const std::vector<int> components = PoseComponents(solution.layout);
   const std::size_t stride = solution.states.size() / terms_.most_nodes + 1;
-  Course course = {
-      .method = solution.method,
-      .seeks = MethodOf(solution.method).Has(MethodTrait::kSearches)};
+  Course course = {.method = solution.method, .seeks = Seeks(solution.method)};
   for (std::size_t k = 0; k < solution.states.size(); k += stride) {
     course.poses.push_back(PoseOf(solution.states[k]));
     course.variances.emplace_back(
