@@ -136,8 +136,8 @@ void ShareDisagreements(std::vector<Solution>* solutions);
 
 /// What a search for errors of sensors (the rule `search`) is doubtful by holds for all
 /// methods that see the whole interval, though they take the sensors at their word: they
-/// become doubtful by it, if they are usable. That a search was ended does not. So does
-/// what comparing methods shows of one of them (Solution::compared).
+/// become doubtful by it, if they are usable. That a search was ended does not make them
+/// so; what comparing methods shows of one of them (Solution::compared) does.
 void ShareFindings(std::vector<Solution>* solutions);
 
 /// Index of the best of several solutions of one recording: the best grade; of
