@@ -190,32 +190,39 @@ std::optional<Evidence> MethodComparison::Compare(const Solution& solution) {
   return found;
 }
 
+MethodComparison::Variances MethodComparison::ExpectedSquares(
+    const ErrorLayout& layout, const Course& sure, const Course& searched) {
+  const bool same = AreAtTheSameTimes(sure.poses, searched.poses);
+  Variances squares = Variances::Zero(layout.dim());
+  for (std::size_t k = 0; k < sure.poses.size(); ++k) {
+    const std::size_t i = same ? k : NearestTo(sure.poses[k].t, searched.poses);
+    Variances expected = searched.variances[i];
+    if (same) {
+      const Variances apart =
+          Local(layout, StateAt(sure.poses[k]), StateAt(searched.poses[i]));
+      expected += apart.cwiseAbs2();
+    }
+    squares += expected.cwiseQuotient(sure.variances[k]);
+  }
+  return squares / static_cast<double>(sure.poses.size());
+}
+
 std::vector<std::pair<std::string, Evidence>> MethodComparison::TooSure(
     const Solution& solution) const {
   std::vector<std::pair<std::string, Evidence>> found;
-  if (!Asks(solution)) return found;
+  const bool seeks = Seeks(solution.method);
+  const bool has_pair = std::ranges::any_of(
+      courses_, [seeks](const Course& other) { return other.seeks != seeks; });
+  if (!has_pair || !Asks(solution)) return found;
   const ErrorLayout layout = PoseLayout(solution.layout);
   const Course own = CourseOf(solution);
   for (const Course& other : courses_) {
-    if (other.seeks == own.seeks) continue;
-    const Course& sure = own.seeks ? other : own;
-    const Course& searched = own.seeks ? own : other;
-    const bool same = AreAtTheSameTimes(sure.poses, searched.poses);
-    Variances squares = Variances::Zero(layout.dim());
-    for (std::size_t k = 0; k < sure.poses.size(); ++k) {
-      const std::size_t i =
-          same ? k : NearestTo(sure.poses[k].t, searched.poses);
-      Variances expected = searched.variances[i];
-      if (same) {
-        const Variances apart =
-            Local(layout, StateAt(sure.poses[k]), StateAt(searched.poses[i]));
-        expected += apart.cwiseAbs2();
-      }
-      squares += expected.cwiseQuotient(sure.variances[k]);
-    }
+    if (other.seeks == seeks) continue;
+    const Course& sure = seeks ? other : own;
+    const Course& searched = seeks ? own : other;
     int worst = 0;
-    const double sigmas = std::sqrt(squares.maxCoeff(&worst) /
-                                    static_cast<double>(sure.poses.size()));
+    const double sigmas =
+        std::sqrt(ExpectedSquares(layout, sure, searched).maxCoeff(&worst));
     if (!(sigmas > kUnusableBias)) continue;
     found.emplace_back(
         sure.method,

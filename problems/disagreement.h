@@ -90,6 +90,10 @@ class MethodComparison {
     std::vector<Variances> variances = {};
   };
 
+  /// In sigmas of `sure`, by component, the mean square of what `searched` holds it to err.
+  static Variances ExpectedSquares(const ErrorLayout& layout,
+                                   const Course& sure, const Course& searched);
+
   bool Asks(const Solution& solution) const;
   Course CourseOf(const Solution& solution) const;
 

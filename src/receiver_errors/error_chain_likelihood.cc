@@ -66,13 +66,14 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   Eigen::Matrix3d S =
       view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const double reach = tape_.reach(k_);
+    const GrowthMoments moved(tape_.reach(k_));
     const auto H_p = z.H.middleCols(position_, 3);
-    // At the middle of its times, and spread about it.
-    const RowJacobian H_v = reach / 2.0 * H_p + z.H.middleCols(velocity_, 3);
+    const auto H_v = z.H.middleCols(velocity_, 3);
+    const RowJacobian H_pv = H_p * H_v.transpose();
     S.topLeftCorner(rows_, rows_) +=
         d.q_vv *
-        (H_v * H_v.transpose() + reach * reach / 12.0 * H_p * H_p.transpose());
+        (moved.square * H_p * H_p.transpose() +
+         moved.by_rate * (H_pv + H_pv.transpose()) + H_v * H_v.transpose());
   }
   return Weigh(innovation, S, outlier);
 }

@@ -18,13 +18,13 @@ void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
 
 void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
   if (velocity_ < 0) return;
-  const double reach = tape_.reach(k_);
+  const GrowthMoments moved(tape_.reach(k_));
   for (int i = 0; i < 3; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;
-    (*P)(p, p) += variance * reach * reach / 3.0;
-    (*P)(p, v) += variance * reach / 2.0;
-    (*P)(v, p) += variance * reach / 2.0;
+    (*P)(p, p) += variance * moved.square;
+    (*P)(p, v) += variance * moved.by_rate;
+    (*P)(v, p) += variance * moved.by_rate;
     (*P)(v, v) += variance;
   }
 }

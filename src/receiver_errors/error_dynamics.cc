@@ -23,12 +23,13 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
     }
     case ErrorMode::kDrifting: {
       const double rate = p.rate_sigma * p.rate_sigma;
+      const GrowthMoments grown(since);
       d.ee = 1.0;
       d.er = step.anew ? 0.0 : dt;
       d.rr = step.anew ? 0.0 : 1.0;
       d.q_rr = step.anew ? rate : rate * kDriftWalk * kDriftWalk * dt;
-      d.q_er = step.anew ? rate * since / 2.0 : 0.0;
-      d.q_ee = step.anew ? rate * since * since / 3.0 : 0.0;
+      d.q_er = step.anew ? rate * grown.by_rate : 0.0;
+      d.q_ee = step.anew ? rate * grown.square : 0.0;
       break;
     }
   }

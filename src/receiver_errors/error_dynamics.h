@@ -12,14 +12,22 @@ namespace hindsight {
 /// correlated noise.
 inline constexpr double kDriftWalk = 1e-3;
 
+/// Of what has grown by a rate r ~ N(0, 1) since any time of the last T seconds, one as
+/// likely as another: E (r u)^2 = T^2 / 3 and E r^2 u = T / 2, u being the time since then.
+struct GrowthMoments {
+  explicit GrowthMoments(double T) : square(T * T / 3.0), by_rate(T / 2.0) {}
+
+  double square;
+  double by_rate;
+};
+
 /// Over an interval, an axis:
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
 /// and a jump of the velocity of variance q_vv. Down, the third axis, w_e has `down` times
 /// the sigma of the others. A drift of a new rate r ~ N(0, s^2) began at any time since the
-/// fix before, `since` before the interval's end, one as likely as another: w_e is r times
-/// what is left of it from there, of which the moments are
-///   q_ee = s^2 since^2 / 3,   q_er = s^2 since / 2,   q_rr = s^2.
+/// fix before, `since` before the interval's end: q_ee and q_er are s^2 times its
+/// GrowthMoments, q_rr is s^2.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;
   double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;

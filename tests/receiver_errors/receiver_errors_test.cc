@@ -788,6 +788,14 @@ TEST(ReceiverErrors, MayBeginToDriftWithinAGap) {
   for (std::size_t k = 0; k < states.size(); ++k) {
     EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 3.0) << k;
   }
+  // Of the batch as of the search: at 21 s, 8 s behind the fix before.
+  const LinearTape extended = RunLinearizedFilter(states, &problem);
+  const int e = problem.layout.Find(BlockKind::kSensorError, 0)->offset;
+  const int r = problem.layout.Find(BlockKind::kErrorRate, 0)->offset;
+  ASSERT_NEAR(extended.t(21), 21.0, 1e-6);
+  const ErrorMatrix P = extended.P_minus(21);
+  EXPECT_NEAR(P(e, e), P(r, r) * 64.0 / 3.0, 1e-3 * P(e, e));
+  EXPECT_NEAR(P(e, r), P(r, r) * 4.0, 1e-3 * P(e, r));
 }
 
 TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {
