@@ -141,7 +141,7 @@ class ErrorChain {
   /// Adds a measurement of the node over (navigation, e, r).
   void Take(const TapeMeasurement& z);
   void AddNavigationNoise(ErrorMatrix* P) const;
-  /// At any time of the node's `reach`, as a drift begins (ErrorDynamics).
+  /// Before the node, as SensorTape::moved says.
   void AddVelocityStep(double variance, ErrorMatrix* P) const;
 
   const SensorTape& tape_;

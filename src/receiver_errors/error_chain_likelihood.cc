@@ -66,7 +66,7 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   Eigen::Matrix3d S =
       view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const GrowthMoments moved(tape_.reach(k_));
+    const GrowthMoments& moved = tape_.moved(k_);
     const auto H_p = z.H.middleCols(position_, 3);
     const auto H_v = z.H.middleCols(velocity_, 3);
     const RowJacobian H_pv = H_p * H_v.transpose();

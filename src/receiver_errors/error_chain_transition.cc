@@ -18,7 +18,7 @@ void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
 
 void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
   if (velocity_ < 0) return;
-  const GrowthMoments moved(tape_.reach(k_));
+  const GrowthMoments& moved = tape_.moved(k_);
   for (int i = 0; i < 3; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "receiver_errors/growth_moments.h"
+
 namespace hindsight {
 
 ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
@@ -23,7 +25,7 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
     }
     case ErrorMode::kDrifting: {
       const double rate = p.rate_sigma * p.rate_sigma;
-      const GrowthMoments grown(since);
+      const GrowthMoments grown = GrowthMoments::Within(since);
       d.ee = 1.0;
       d.er = step.anew ? 0.0 : dt;
       d.rr = step.anew ? 0.0 : 1.0;

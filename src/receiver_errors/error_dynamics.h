@@ -12,15 +12,6 @@ namespace hindsight {
 /// correlated noise.
 inline constexpr double kDriftWalk = 1e-3;
 
-/// Of what has grown by a rate r ~ N(0, 1) since any time of the last T seconds, one as
-/// likely as another: E (r u)^2 = T^2 / 3 and E r^2 u = T / 2, u being the time since then.
-struct GrowthMoments {
-  explicit GrowthMoments(double T) : square(T * T / 3.0), by_rate(T / 2.0) {}
-
-  double square;
-  double by_rate;
-};
-
 /// Over an interval, an axis:
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),

@@ -53,19 +53,23 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
   return positions;
 }
 
-/// What was met of a sensor, but for what needs steps of the IMU's velocity, which explain
-/// whatever the trajectory about which they were found had wrong.
+/// The errors that were met of a sensor, without the steps of the IMU's velocity beside
+/// them, which explain whatever the trajectory about which they were found had wrong.
 std::vector<MetHypotheses> MetOf(int sensor, const DecidedErrors& met) {
-  const auto has_steps = [](const Hypothesis& h) {
-    return CountVelocitySteps(h.sequence) > 0;
-  };
   std::vector<MetHypotheses> all;
   for (const auto& one : met) {
     if (one->sensor != sensor) continue;
-    for (MetHypotheses fit : one->met) {
-      if (has_steps(fit.front())) continue;
-      std::erase_if(fit, has_steps);
-      all.push_back(std::move(fit));
+    for (const MetHypotheses& fit : one->met) {
+      MetHypotheses errors;
+      for (Hypothesis h : fit) {
+        for (ErrorStep& step : h.sequence) step.velocity_step = false;
+        const bool is_new = std::ranges::none_of(
+            errors,
+            [&](const auto& other) { return other.sequence == h.sequence; });
+        if (is_new && !IsGoodThroughout(h.sequence))
+          errors.push_back(std::move(h));
+      }
+      if (!errors.empty()) all.push_back(std::move(errors));
     }
   }
   return all;

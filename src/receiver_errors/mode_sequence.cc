@@ -32,6 +32,11 @@ constexpr ErrorStep kBeginDrift = {ErrorMode::kDrifting, true};
 
 }  // namespace
 
+bool IsGoodThroughout(const ModeSequence& sequence) {
+  return std::ranges::all_of(
+      sequence, [](const ErrorStep& s) { return s.mode == ErrorMode::kGood; });
+}
+
 std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence) {
   std::vector<ErrorMode> order;
   ErrorMode mode = ErrorMode::kGood;

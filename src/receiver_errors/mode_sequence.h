@@ -20,8 +20,8 @@ enum class ErrorMode : char {
 /// follows a drift that stops. `velocity_step`: what goes on does so over an interval in
 /// which the velocity that the IMU integrates has a step that no noise explains
 /// (a shock beyond its range, lost samples), which else would pass for a drift of
-/// the receiver, at any time since the last position or fix: behind a gap it else would pass
-/// for a bias. `outlier`: the fix is one whatever the likelihood says of it at its
+/// the receiver, at the last position or fix, behind a gap at any time of it, as it else
+/// would pass for a bias. `outlier`: the fix is one whatever the likelihood says of it at its
 /// time: where the state is known badly, as behind a gap, only later fixes tell.
 struct ErrorStep {
   ErrorMode mode = ErrorMode::kGood;
@@ -33,6 +33,9 @@ struct ErrorStep {
 
 /// A step for each node that has a fix of the receiver, in order.
 using ModeSequence = std::vector<ErrorStep>;
+
+/// Whether it has no error of the receiver, whatever steps the IMU's velocity has.
+bool IsGoodThroughout(const ModeSequence& sequence);
 
 /// The modes of a sequence in their order, whatever their change points.
 std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence);

@@ -10,12 +10,6 @@
 namespace hindsight {
 namespace {
 
-bool IsAllGood(const ModeSequence& sequence) {
-  return std::all_of(sequence.begin(), sequence.end(), [](const ErrorStep& s) {
-    return s.mode == ErrorMode::kGood;
-  });
-}
-
 /// Where the search for hypotheses begins: errors of several sizes, short or
 /// lasting, first those as large as the outliers of `white`, and outliers as they are a
 /// priori: those of white noise alone are the errors that are sought.
@@ -74,7 +68,7 @@ std::vector<Attempt> MakeAttempts(const RegimeProblem& problem,
           SearchHypotheses(problem.tape, parameters, kNarrow, problem.effort)
               .front()
               .sequence;
-      if (IsAllGood(found) || is_known(found)) break;
+      if (IsGoodThroughout(found) || is_known(found)) break;
       parameters =
           TuneParameters(problem.tape, found, parameters, problem.effort);
       const double log_posterior =

@@ -6,6 +6,17 @@
 #include "base/gap.h"
 
 namespace hindsight {
+namespace {
+
+std::vector<double> TimesOfFixes(const SensorTape& tape) {
+  std::vector<double> times;
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    if (tape.HasFix(k)) times.push_back(tape.t(k));
+  }
+  return times;
+}
+
+}  // namespace
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
@@ -20,7 +31,8 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
     nodes_[k].over_interval = over_interval;
   }
   SetShares();
-  SetReaches();
+  SetLongestSpacing();
+  SetMoved();
   SetNoisy();
 }
 
@@ -40,7 +52,16 @@ void SensorTape::SetShares() {
   }
 }
 
-void SensorTape::SetReaches() {
+void SensorTape::SetLongestSpacing() {
+  const std::vector<double> times = TimesOfFixes(*this);
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    spacings.push_back(times[i] - times[i - 1]);
+  }
+  longest_spacing_ = LongestSpacingWithoutGap(spacings);
+}
+
+void SensorTape::SetMoved() {
   const Block* position = tape_.layout().Find(BlockKind::kPosition);
   if (position == nullptr || position->dim != 3) return;
   const auto sees_position = [&](const TapeMeasurement& z) {
@@ -49,7 +70,11 @@ void SensorTape::SetReaches() {
   };
   double last = t(0);
   for (std::size_t k = 0; k < size(); ++k) {
-    if (HasFix(k)) nodes_[k].reach = t(k) - last;
+    const double since = t(k) - last;
+    if (HasFix(k)) {
+      nodes_[k].moved = since > longest_spacing_ ? GrowthMoments::Within(since)
+                                                 : GrowthMoments::For(since);
+    }
     if (HasFix(k) ||
         std::ranges::any_of(tape_.measurements(k), sees_position)) {
       last = t(k);
@@ -88,18 +113,10 @@ bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {
 }
 
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape) {
-  std::vector<double> times;
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (tape.HasFix(k)) times.push_back(tape.t(k));
-  }
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    spacings.push_back(times[i] - times[i - 1]);
-  }
-  const double longest = LongestSpacingWithoutGap(spacings);
+  const std::vector<double> times = TimesOfFixes(tape);
   std::vector<std::size_t> behind;
-  for (std::size_t i = 0; i < spacings.size(); ++i) {
-    if (spacings[i] > longest) behind.push_back(i + 1);
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] - times[i - 1] > tape.longest_spacing()) behind.push_back(i);
   }
   return behind;
 }

@@ -7,6 +7,7 @@
 
 #include "filters/linear_tape.h"
 #include "linear/sparse_product.h"
+#include "receiver_errors/growth_moments.h"
 
 namespace hindsight {
 
@@ -33,9 +34,13 @@ class SensorTape {
   double share(std::size_t k) const { return nodes_[k].share; }
   /// As of TimesSinceFix.
   double since_fix(std::size_t k) const { return nodes_[k].since_fix; }
-  /// Of a velocity step at a fix: back to the last node that saw the position, or had a
-  /// fix of the sensor [s].
-  double reach(std::size_t k) const { return nodes_[k].reach; }
+  /// How far a velocity step before a fix has moved the position: since the last node that
+  /// saw the position, or had a fix of the sensor; behind a gap of the sensor's, since any
+  /// time from there on. Were it any time between two fixes without a gap, one might jump
+  /// from the other by a step that leaves the velocity as it was.
+  const GrowthMoments& moved(std::size_t k) const { return nodes_[k].moved; }
+  /// The longest time between two fixes that is no gap [s] (LongestSpacingWithoutGap).
+  double longest_spacing() const { return longest_spacing_; }
   /// With the transition of the interval that ends at node k >= 1.
   const SparseCongruence& OverInterval(std::size_t k) const {
     return nodes_[k].over_interval;
@@ -48,12 +53,13 @@ class SensorTape {
     bool has_fix = false;
     double share = 0.0;
     double since_fix = 0.0;
-    double reach = 0.0;
+    GrowthMoments moved;
     SparseCongruence over_interval;
   };
 
   void SetShares();
-  void SetReaches();
+  void SetLongestSpacing();
+  void SetMoved();
   void SetNoisy();
 
   const LinearTape& tape_;
@@ -61,6 +67,7 @@ class SensorTape {
   std::vector<Node> nodes_;
   std::vector<Eigen::Index> noisy_;
   std::size_t fix_count_ = 0;
+  double longest_spacing_ = 0.0;
 };
 
 /// Whether the node has a fix of the sensor that is used.
@@ -68,7 +75,7 @@ bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
 /// By node: since the fix before it, without one since the first node [s].
 std::vector<double> TimesSinceFix(const LinearTape& tape, int sensor);
 /// The fixes, counted from 0, before which there are none for longer than
-/// LongestSpacingWithoutGap, in order.
+/// longest_spacing(), in order.
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);
 /// The most rows that a measurement of the sensor has.
 int RowsOf(const LinearTape& tape, int sensor);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "receiver_errors/receiver_tape.h"
 
 namespace hindsight {
@@ -185,15 +187,17 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
   }
 }
 
-/// A step of the velocity behind a gap was at any time of it: moments of dv u, u uniform.
+/// A step of the velocity was at the last fix, but behind a gap at any time of it: moments of
+/// dv u, u uniform.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
   constexpr std::size_t kBegin = 15;
   constexpr std::size_t kEnd = 25;
   const LinearTape tape = WithGap(kBegin, kEnd);
   ErrorParameters p = WithoutOutliers();
   p.rate_sigma = 0.3;
-  for (const auto& [node, last] :
-       {std::pair{kBegin - 1, kBegin - 2}, {kEnd, kBegin - 1}}) {
+  for (const auto& [node, last, square, by_rate] :
+       {std::tuple{kBegin - 1, kBegin - 2, 1.0, 1.0},
+        {kEnd, kBegin - 1, 1.0 / 3.0, 0.5}}) {
     const SensorTape seen(tape, 0);
     ErrorChain chain(seen, p);
     Gaussian x = PredictedTo(node, &chain);
@@ -210,8 +214,9 @@ TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
         ErrorChain::Resized(stepped, n).P - ErrorChain::Resized(x, n).P;
     const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
     EXPECT_TRUE(
-        (added.block<3, 3>(pos, pos).isApprox(q * T * T / 3.0 * I, 1e-9)));
-    EXPECT_TRUE((added.block<3, 3>(pos, vel).isApprox(q * T / 2.0 * I, 1e-9)));
+        (added.block<3, 3>(pos, pos).isApprox(q * T * T * square * I, 1e-9)));
+    EXPECT_TRUE(
+        (added.block<3, 3>(pos, vel).isApprox(q * T * by_rate * I, 1e-9)));
     EXPECT_TRUE((added.block<3, 3>(vel, vel).isApprox(q * I, 1e-9)));
     EXPECT_NEAR(before.log, chain.LikelihoodOfFix(kStepVelocity, stepped).log,
                 1e-9);
@@ -235,7 +240,7 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
   EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
-              p.rate_sigma * p.rate_sigma * dt * dt / 3.0, 1e-9);
+              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
 }
 
 /// What a velocity was at its last fix is known, however long ago the position was.
@@ -255,7 +260,7 @@ TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
   const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
   const double dt = tape.t(kNode) - tape.t(kNode - 1);
   EXPECT_NEAR((chain.Q(kStepVelocity) - chain.Q(kStayGood))(pos, pos),
-              p.rate_sigma * p.rate_sigma * dt * dt / 3.0, 1e-9);
+              p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
 }
 
 }  // namespace
