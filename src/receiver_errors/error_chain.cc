@@ -94,7 +94,7 @@ Gaussian ErrorChain::Begin() const {
 void ErrorChain::MoveTo(std::size_t k) {
   k_ = k;
   dt_ = k > 0 ? tape_.t(k) - tape_.t(k - 1) : 0.0;
-  since_ = tape_.since_fix(k);
+  grown_ = tape_.grown(k);
   c_n_ = tape_.linear().c(k);
   z_.clear();
   const auto all = tape_.linear().measurements(k);
@@ -162,7 +162,7 @@ void ErrorChain::PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const {
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, since_);
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, grown_);
   const int dim = DimOf(step.mode);
   if (x->mean.size() != dim) *x = Resized(*x, dim);
   if (dim == navigation_dim_ + 6) {

@@ -154,7 +154,7 @@ class ErrorChain {
   std::size_t k_ = 0;
   ErrorVector c_n_;
   double dt_ = 0.0;
-  double since_ = 0.0;            ///< as of ErrorDynamics
+  GrowthMoments grown_;           ///< as of ErrorDynamics
   int fix_ = -1;                  ///< index in z_
   int rows_ = 0;                  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier

@@ -47,7 +47,7 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
     ErrorStep step, const FixView& view) const {
-  return Likelihood(DynamicsOf(parameters_, step, dt_, since_), step.outlier,
+  return Likelihood(DynamicsOf(parameters_, step, dt_, grown_), step.outlier,
                     view);
 }
 

@@ -34,25 +34,25 @@ ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
   Phi.topLeftCorner(n, n) = tape_.linear().Phi(k_);
   Phi.bottomRightCorner<6, 6>() =
-      ErrorPhi(DynamicsOf(parameters_, step, dt_, since_));
+      ErrorPhi(DynamicsOf(parameters_, step, dt_, grown_));
   return Phi;
 }
 
 ErrorMatrix ErrorChain::PhiAtOnce(ErrorStep step) const {
   ErrorMatrix Phi = ErrorMatrix::Identity(dim(), dim());
   Phi.bottomRightCorner<6, 6>() =
-      ErrorPhi(DynamicsOf(parameters_, step, 0.0, 0.0));
+      ErrorPhi(DynamicsOf(parameters_, step, 0.0, {}));
   return Phi;
 }
 
 ErrorMatrix ErrorChain::QAtOnce(ErrorStep step) const {
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
-  Q.bottomRightCorner<6, 6>() = ErrorQ(DynamicsOf(parameters_, step, 0.0, 0.0));
+  Q.bottomRightCorner<6, 6>() = ErrorQ(DynamicsOf(parameters_, step, 0.0, {}));
   return Q;
 }
 
 ErrorMatrix ErrorChain::Q(ErrorStep step) const {
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, since_);
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, grown_);
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
   AddNavigationNoise(&Q);
   Q.bottomRightCorner<6, 6>() = ErrorQ(d);

@@ -2,12 +2,10 @@
 
 #include <cmath>
 
-#include "receiver_errors/growth_moments.h"
-
 namespace hindsight {
 
 ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
-                         double since) {
+                         const GrowthMoments& grown) {
   ErrorDynamics d;
   d.q_vv = step.velocity_step ? p.rate_sigma * p.rate_sigma : 0.0;
   switch (step.mode) {
@@ -25,7 +23,6 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
     }
     case ErrorMode::kDrifting: {
       const double rate = p.rate_sigma * p.rate_sigma;
-      const GrowthMoments grown = GrowthMoments::Within(since);
       d.ee = 1.0;
       d.er = step.anew ? 0.0 : dt;
       d.rr = step.anew ? 0.0 : 1.0;

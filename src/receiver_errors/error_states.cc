@@ -37,7 +37,7 @@ ErrorStates::ErrorStates(const LinearTape& tape, int receiver,
     : tape_(tape),
       receiver_(receiver),
       rows_(RowsOf(tape, receiver)),
-      since_fix_(TimesSinceFix(tape, receiver)),
+      grown_(GrowthSinceFix(tape, receiver)),
       floor_(kNoError * stated_sigma),
       unit_(unit),
       kind_(kind),
@@ -169,8 +169,7 @@ std::vector<BlockStep> ErrorStates::StepsTo(
   const ErrorStep& before = chosen_.steps[k - 1];
   const ErrorStep& step = chosen_.steps[k];
   const double dt = tape_.t(k) - tape_.t(k - 1);
-  const double since = since_fix_[k];
-  const ErrorDynamics d = DynamicsOf(parameters, step, dt, since);
+  const ErrorDynamics d = DynamicsOf(parameters, step, dt, grown_[k]);
   const double rate = parameters.rate_sigma * parameters.rate_sigma;
   BlockStep e = {.key = {BlockKind::kSensorError, receiver_},
                  .phi = d.ee,

@@ -20,8 +20,8 @@ enum class ErrorMode : char {
 /// follows a drift that stops. `velocity_step`: what goes on does so over an interval in
 /// which the velocity that the IMU integrates has a step that no noise explains
 /// (a shock beyond its range, lost samples), which else would pass for a drift of
-/// the receiver, at the last position or fix, behind a gap at any time of it, as it else
-/// would pass for a bias. `outlier`: the fix is one whatever the likelihood says of it at its
+/// the receiver, at the last position or fix, where fixes are missing at any time since, as
+/// it else would pass for a bias. `outlier`: the fix is one whatever the likelihood says of it at its
 /// time: where the state is known badly, as behind a gap, only later fixes tell.
 struct ErrorStep {
   ErrorMode mode = ErrorMode::kGood;

@@ -1,29 +1,43 @@
 #include "receiver_errors/sensor_tape.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "base/gap.h"
+#include "base/median.h"
 
 namespace hindsight {
 namespace {
 
-std::vector<double> TimesOfFixes(const SensorTape& tape) {
-  std::vector<double> times;
+/// Times between fixes [s].
+std::vector<double> SpacingsOf(const LinearTape& tape, int sensor) {
+  std::vector<double> spacings;
+  std::optional<double> last;
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    if (tape.HasFix(k)) times.push_back(tape.t(k));
+    if (!HasFix(tape, k, sensor)) continue;
+    if (last) spacings.push_back(tape.t(k) - *last);
+    last = tape.t(k);
   }
-  return times;
+  return spacings;
+}
+
+/// Of what began since the last time that would have shown it, `since` ago [s], fixes coming
+/// every `spacing`.
+GrowthMoments GrowthOver(double since, double spacing) {
+  constexpr double kMissing = 1.5;
+  return since > kMissing * spacing ? GrowthMoments::Within(since)
+                                    : GrowthMoments::For(since);
 }
 
 }  // namespace
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
-  const std::vector<double> since_fix = TimesSinceFix(tape, sensor);
+  const std::vector<GrowthMoments> grown = GrowthSinceFix(tape, sensor);
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
-    nodes_[k].since_fix = since_fix[k];
+    nodes_[k].grown = grown[k];
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
     if (k == 0) continue;
     // A copy takes no more memory than it needs.
@@ -31,7 +45,6 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
     nodes_[k].over_interval = over_interval;
   }
   SetShares();
-  SetLongestSpacing();
   SetMoved();
   SetNoisy();
 }
@@ -52,15 +65,6 @@ void SensorTape::SetShares() {
   }
 }
 
-void SensorTape::SetLongestSpacing() {
-  const std::vector<double> times = TimesOfFixes(*this);
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    spacings.push_back(times[i] - times[i - 1]);
-  }
-  longest_spacing_ = LongestSpacingWithoutGap(spacings);
-}
-
 void SensorTape::SetMoved() {
   const Block* position = tape_.layout().Find(BlockKind::kPosition);
   if (position == nullptr || position->dim != 3) return;
@@ -68,13 +72,10 @@ void SensorTape::SetMoved() {
     return z.accepted && !z.withheld &&
            !z.H.middleCols(position->offset, 3).isZero(0.0);
   };
+  const double spacing = Median(SpacingsOf(tape_, sensor_));
   double last = t(0);
   for (std::size_t k = 0; k < size(); ++k) {
-    const double since = t(k) - last;
-    if (HasFix(k)) {
-      nodes_[k].moved = since > longest_spacing_ ? GrowthMoments::Within(since)
-                                                 : GrowthMoments::For(since);
-    }
+    if (HasFix(k)) nodes_[k].moved = GrowthOver(t(k) - last, spacing);
     if (HasFix(k) ||
         std::ranges::any_of(tape_.measurements(k), sees_position)) {
       last = t(k);
@@ -95,14 +96,15 @@ void SensorTape::SetNoisy() {
   }
 }
 
-std::vector<double> TimesSinceFix(const LinearTape& tape, int sensor) {
-  std::vector<double> since;
+std::vector<GrowthMoments> GrowthSinceFix(const LinearTape& tape, int sensor) {
+  const double spacing = Median(SpacingsOf(tape, sensor));
+  std::vector<GrowthMoments> growth;
   double last = tape.size() == 0 ? 0.0 : tape.t(0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    since.push_back(tape.t(k) - last);
+    growth.push_back(GrowthOver(tape.t(k) - last, spacing));
     if (HasFix(tape, k, sensor)) last = tape.t(k);
   }
-  return since;
+  return growth;
 }
 
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {
@@ -113,10 +115,11 @@ bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {
 }
 
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape) {
-  const std::vector<double> times = TimesOfFixes(tape);
+  const std::vector<double> spacings = SpacingsOf(tape.linear(), tape.sensor());
+  const double longest = LongestSpacingWithoutGap(spacings);
   std::vector<std::size_t> behind;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    if (times[i] - times[i - 1] > tape.longest_spacing()) behind.push_back(i);
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    if (spacings[i] > longest) behind.push_back(i + 1);
   }
   return behind;
 }

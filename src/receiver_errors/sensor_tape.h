@@ -32,15 +32,15 @@ class SensorTape {
   /// by the mean interval and the number of fixes, of which twenty are the least. A gap is
   /// as many as it lacks.
   double share(std::size_t k) const { return nodes_[k].share; }
-  /// As of TimesSinceFix.
-  double since_fix(std::size_t k) const { return nodes_[k].since_fix; }
-  /// How far a velocity step before a fix has moved the position: since the last node that
-  /// saw the position, or had a fix of the sensor; behind a gap of the sensor's, since any
-  /// time from there on. Were it any time between two fixes without a gap, one might jump
-  /// from the other by a step that leaves the velocity as it was.
+  /// Of a drift that begins: since the fix before it, or, where a fix is missing in between
+  /// (the time is 1.5 times the median of those between fixes), since any time from there on.
+  /// Were it any time between neighbours, one might jump from the other by an error of which
+  /// the rate stays.
+  const GrowthMoments& grown(std::size_t k) const { return nodes_[k].grown; }
+  /// Of the position after a velocity step before a fix: the same since the last node that
+  /// saw the position, or had a fix of the sensor. A drift and a step are as free as each
+  /// other: else the one would stand for the other.
   const GrowthMoments& moved(std::size_t k) const { return nodes_[k].moved; }
-  /// The longest time between two fixes that is no gap [s] (LongestSpacingWithoutGap).
-  double longest_spacing() const { return longest_spacing_; }
   /// With the transition of the interval that ends at node k >= 1.
   const SparseCongruence& OverInterval(std::size_t k) const {
     return nodes_[k].over_interval;
@@ -52,13 +52,12 @@ class SensorTape {
   struct Node {
     bool has_fix = false;
     double share = 0.0;
-    double since_fix = 0.0;
+    GrowthMoments grown;
     GrowthMoments moved;
     SparseCongruence over_interval;
   };
 
   void SetShares();
-  void SetLongestSpacing();
   void SetMoved();
   void SetNoisy();
 
@@ -67,15 +66,14 @@ class SensorTape {
   std::vector<Node> nodes_;
   std::vector<Eigen::Index> noisy_;
   std::size_t fix_count_ = 0;
-  double longest_spacing_ = 0.0;
 };
 
 /// Whether the node has a fix of the sensor that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
-/// By node: since the fix before it, without one since the first node [s].
-std::vector<double> TimesSinceFix(const LinearTape& tape, int sensor);
+/// By node: of a drift that begins there, SensorTape::grown.
+std::vector<GrowthMoments> GrowthSinceFix(const LinearTape& tape, int sensor);
 /// The fixes, counted from 0, before which there are none for longer than
-/// longest_spacing(), in order.
+/// LongestSpacingWithoutGap, in order.
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);
 /// The most rows that a measurement of the sensor has.
 int RowsOf(const LinearTape& tape, int sensor);

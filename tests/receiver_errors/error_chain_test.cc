@@ -187,6 +187,23 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
   }
 }
 
+/// What begins did so at the fix before, but at any time since where one is missing.
+TEST(SensorTape, ADriftBeginsAtAnyTimeWhereAFixIsMissing) {
+  constexpr std::size_t kMissing = 15;
+  const LinearTape tape = WithGap(kMissing, kMissing + 1);
+  const SensorTape seen(tape, 0);
+  ASSERT_FALSE(seen.HasFix(kMissing));
+  for (const std::size_t k : {kMissing - 1, kMissing + 2}) {
+    const double T = tape.t(k) - tape.t(k - 1);
+    EXPECT_DOUBLE_EQ(seen.grown(k).square, T * T) << k;
+    EXPECT_DOUBLE_EQ(seen.grown(k).by_rate, T) << k;
+  }
+  const double T = tape.t(kMissing + 1) - tape.t(kMissing - 1);
+  EXPECT_DOUBLE_EQ(seen.grown(kMissing + 1).square, T * T / 3.0);
+  EXPECT_DOUBLE_EQ(seen.grown(kMissing + 1).by_rate, T / 2.0);
+  EXPECT_DOUBLE_EQ(seen.moved(kMissing + 1).square, T * T / 3.0);
+}
+
 /// A step of the velocity was at the last fix, but behind a gap at any time of it: moments of
 /// dv u, u uniform.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {

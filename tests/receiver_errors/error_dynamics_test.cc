@@ -25,7 +25,8 @@ TEST(ErrorDynamics, ADriftBeganAtAnyTimeSinceTheFixBefore) {
     }
     // Whatever other nodes there are in between.
     for (const double dt : {0.2, 0.1}) {
-      const ErrorDynamics d = DynamicsOf(p, kBegins, dt, since);
+      const ErrorDynamics d =
+          DynamicsOf(p, kBegins, dt, GrowthMoments::Within(since));
       EXPECT_NEAR(d.q_ee, ee, 1e-8 * ee);
       EXPECT_NEAR(d.q_er, er, 1e-8 * er);
       EXPECT_DOUBLE_EQ(d.q_rr, 0.09);
@@ -39,10 +40,21 @@ TEST(ErrorDynamics, ADriftBeganAtAnyTimeSinceTheFixBefore) {
   }
 }
 
+/// Of an error r T, whatever the interval.
+TEST(ErrorDynamics, ADriftBeganAtTheFixBefore) {
+  ErrorParameters p;
+  p.rate_sigma = 0.3;
+  const ErrorDynamics d = DynamicsOf(p, kBegins, 0.1, GrowthMoments::For(2.0));
+  EXPECT_DOUBLE_EQ(d.q_ee, 0.36);
+  EXPECT_DOUBLE_EQ(d.q_er, 0.18);
+  EXPECT_DOUBLE_EQ(d.q_rr, 0.09);
+}
+
 /// A drift that goes on knows nothing of the time since the fix before.
 TEST(ErrorDynamics, ADriftGoesOnByItsRate) {
   const ErrorParameters p;
-  const ErrorDynamics d = DynamicsOf(p, {ErrorMode::kDrifting}, 0.5, 9.0);
+  const ErrorDynamics d =
+      DynamicsOf(p, {ErrorMode::kDrifting}, 0.5, GrowthMoments::Within(9.0));
   EXPECT_EQ(d.er, 0.5);
   EXPECT_EQ(d.q_ee, 0.0);
   EXPECT_EQ(d.q_er, 0.0);
