@@ -48,7 +48,8 @@ struct ErrorQuestion {
   /// same fixes, instead of a search. nullptr: none.
   const DecidedErrors* decided = nullptr;
   /// What searches about other tapes have met: of a sensor of which the nodes hold as many
-  /// fixes a search begins from the likeliest of it as well.
+  /// fixes a search begins from the likeliest of it as well, without steps of the IMU's
+  /// velocity.
   DecidedErrors met = {};
   /// Asks after sensors of velocities in the axes of the vehicle (odometers, DVLs, and
   /// that wheels do not slip sideways) in place of the absolute ones.

@@ -841,6 +841,28 @@ TEST(ReceiverErrors, MayBeThoseThatAnotherSearchHasMet) {
   EXPECT_NEAR(after.log_gain(), full.log_gain(), 1.0);
 }
 
+/// Steps of the IMU's velocity were of the trajectory about which they were met.
+TEST(ReceiverErrors, MayBeThoseThatAnotherSearchHasMetBesideSteps) {
+  constexpr std::size_t kStep = 3;  // before the drift
+  const TestProblem test = WithFastDrift();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const ReceiverErrors full = FindThem(problem, tape);
+  ErrorDecisions beside_steps = *full.Decisions();
+  ASSERT_FALSE(beside_steps.met.empty());
+  for (MetHypotheses& fit : beside_steps.met) {
+    for (Hypothesis& one : fit) one.sequence[kStep].velocity_step = true;
+  }
+  const ReceiverErrors after =
+      FindReceiverErrors(
+          problem, tape,
+          {.known = {1},
+           .met = {std::make_shared<const ErrorDecisions>(beside_steps)},
+           .share = 1e-6})
+          .at(0);
+  EXPECT_EQ(after.InWords(), full.InWords());
+}
+
 TEST(ReceiverErrors, AreWeighedWithWhatAnotherSearchHasMetAsLikely) {
   TestProblem test = FixesOfOneMinute();
   for (Measurement& z : test.measurements) {
