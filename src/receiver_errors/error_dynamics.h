@@ -17,8 +17,8 @@ inline constexpr double kDriftWalk = 1e-3;
 ///   e' = ee e + er r + w_e,   r' = rr r + w_r,
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
 /// and a jump of the velocity of variance q_vv. Down, the third axis, w_e has `down` times
-/// the sigma of the others. Of a drift of a new rate r ~ N(0, s^2), q_ee and q_er are s^2 times
-/// what it has `grown`, q_rr is s^2.
+/// the sigma of the others. Of a drift of a new rate r ~ N(0, s^2), which has grown for an
+/// unknown time, q_ee and q_er are s^2 times the moments `grown`, and q_rr is s^2.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;
   double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;

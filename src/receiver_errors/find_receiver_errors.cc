@@ -53,22 +53,27 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
   return positions;
 }
 
-/// The errors that were met of a sensor, without the steps of the IMU's velocity beside
-/// them, which explain whatever the trajectory about which they were found had wrong.
+/// The errors of a fit, each once, without the steps of the IMU's velocity beside them, which
+/// explain whatever the trajectory about which they were found had wrong.
+MetHypotheses WithoutVelocitySteps(const MetHypotheses& fit) {
+  MetHypotheses errors;
+  for (Hypothesis h : fit) {
+    for (ErrorStep& step : h.sequence) step.velocity_step = false;
+    const bool is_known = std::ranges::any_of(errors, [&h](const auto& other) {
+      return other.sequence == h.sequence;
+    });
+    if (is_known || IsGoodThroughout(h.sequence)) continue;
+    errors.push_back(std::move(h));
+  }
+  return errors;
+}
+
 std::vector<MetHypotheses> MetOf(int sensor, const DecidedErrors& met) {
   std::vector<MetHypotheses> all;
   for (const auto& one : met) {
     if (one->sensor != sensor) continue;
     for (const MetHypotheses& fit : one->met) {
-      MetHypotheses errors;
-      for (Hypothesis h : fit) {
-        for (ErrorStep& step : h.sequence) step.velocity_step = false;
-        const bool is_new = std::ranges::none_of(
-            errors,
-            [&](const auto& other) { return other.sequence == h.sequence; });
-        if (is_new && !IsGoodThroughout(h.sequence))
-          errors.push_back(std::move(h));
-      }
+      MetHypotheses errors = WithoutVelocitySteps(fit);
       if (!errors.empty()) all.push_back(std::move(errors));
     }
   }

@@ -204,6 +204,20 @@ TEST(SensorTape, ADriftBeginsAtAnyTimeWhereAFixIsMissing) {
   EXPECT_DOUBLE_EQ(seen.moved(kMissing + 1).square, T * T / 3.0);
 }
 
+/// Else the one stands for the other.
+TEST(SensorTape, OfALoneReceiverADriftAndAStepOfTheVelocityBeginAlike) {
+  const LinearTape tape = WithGap(15, 17);
+  const SensorTape seen(tape, 0);
+  int fixes = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if (!seen.HasFix(k)) continue;
+    ++fixes;
+    EXPECT_EQ(seen.moved(k).square, seen.grown(k).square) << k;
+    EXPECT_EQ(seen.moved(k).by_rate, seen.grown(k).by_rate) << k;
+  }
+  EXPECT_GT(fixes, 20);
+}
+
 /// A step of the velocity was at the last fix, but behind a gap at any time of it: moments of
 /// dv u, u uniform.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
