@@ -94,7 +94,7 @@ Gaussian ErrorChain::Begin() const {
 void ErrorChain::MoveTo(std::size_t k) {
   k_ = k;
   dt_ = k > 0 ? tape_.t(k) - tape_.t(k - 1) : 0.0;
-  grown_ = tape_.grown(k);
+  unseen_ = tape_.unseen_drift(k);
   c_n_ = tape_.linear().c(k);
   z_.clear();
   const auto all = tape_.linear().measurements(k);
@@ -162,7 +162,7 @@ void ErrorChain::PredictErrorBy(const ErrorDynamics& d, Gaussian* x) const {
 }
 
 void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, grown_);
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, unseen_);
   const int dim = DimOf(step.mode);
   if (x->mean.size() != dim) *x = Resized(*x, dim);
   if (dim == navigation_dim_ + 6) {
@@ -170,7 +170,7 @@ void ErrorChain::PredictError(ErrorStep step, Gaussian* x) const {
   } else if (dim == navigation_dim_ + 3) {
     PredictErrorBy<3>(d, x);
   }
-  if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, &x->P);
+  if (d.q_vv > 0.0) AddVelocityStep(d.q_vv, step.onset, &x->P);
 }
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodOfFix(ErrorStep step,

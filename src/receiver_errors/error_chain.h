@@ -123,7 +123,7 @@ class ErrorChain {
   bool IsFix(std::size_t i) const { return static_cast<int>(i) == fix_; }
 
  private:
-  FixLikelihood Likelihood(const ErrorDynamics& d, bool outlier,
+  FixLikelihood Likelihood(const ErrorDynamics& d, ErrorStep step,
                            const FixView& view) const;
   /// With H P of the fix.
   FixLikelihood LikelihoodBy(const RowJacobian& HP, const Gaussian& x,
@@ -142,7 +142,7 @@ class ErrorChain {
   void Take(const TapeMeasurement& z);
   void AddNavigationNoise(ErrorMatrix* P) const;
   /// Before the node, as SensorTape::moved says.
-  void AddVelocityStep(double variance, ErrorMatrix* P) const;
+  void AddVelocityStep(double variance, Onset onset, ErrorMatrix* P) const;
 
   const SensorTape& tape_;
   ErrorParameters parameters_;
@@ -154,7 +154,7 @@ class ErrorChain {
   std::size_t k_ = 0;
   ErrorVector c_n_;
   double dt_ = 0.0;
-  GrowthMoments grown_;           ///< as of ErrorDynamics
+  UnseenTime unseen_;             ///< of a drift
   int fix_ = -1;                  ///< index in z_
   int rows_ = 0;                  ///< of the fix
   Eigen::Matrix3d R_in_, R_out_;  ///< of the fix, padded, as an outlier

@@ -47,12 +47,11 @@ ErrorChain::FixView ErrorChain::ViewOf(const Gaussian& x) const {
 
 ErrorChain::FixLikelihood ErrorChain::LikelihoodAfter(
     ErrorStep step, const FixView& view) const {
-  return Likelihood(DynamicsOf(parameters_, step, dt_, grown_), step.outlier,
-                    view);
+  return Likelihood(DynamicsOf(parameters_, step, dt_, unseen_), step, view);
 }
 
 ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
-                                                 bool outlier,
+                                                 ErrorStep step,
                                                  const FixView& view) const {
   const LinearizedMeasurement& z = z_[static_cast<std::size_t>(fix_)];
   const Eigen::Matrix3d& E = by_error_;
@@ -66,7 +65,7 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
   Eigen::Matrix3d S =
       view.S + cross + cross.transpose() + E * P_ee * E.transpose();
   if (velocity_ >= 0 && d.q_vv > 0.0) {
-    const GrowthMoments& moved = tape_.moved(k_);
+    const GrowthMoments moved = tape_.unseen_step(k_).Grown(step.onset);
     const auto H_p = z.H.middleCols(position_, 3);
     const auto H_v = z.H.middleCols(velocity_, 3);
     const RowJacobian H_pv = H_p * H_v.transpose();
@@ -75,7 +74,7 @@ ErrorChain::FixLikelihood ErrorChain::Likelihood(const ErrorDynamics& d,
         (moved.square * H_p * H_p.transpose() +
          moved.by_rate * (H_pv + H_pv.transpose()) + H_v * H_v.transpose());
   }
-  return Weigh(innovation, S, outlier);
+  return Weigh(innovation, S, step.outlier);
 }
 
 ErrorChain::FixLikelihood ErrorChain::Weigh(const Eigen::Vector3d& innovation,

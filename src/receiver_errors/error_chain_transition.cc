@@ -16,9 +16,10 @@ void ErrorChain::AddNavigationNoise(ErrorMatrix* P) const {
   }
 }
 
-void ErrorChain::AddVelocityStep(double variance, ErrorMatrix* P) const {
+void ErrorChain::AddVelocityStep(double variance, Onset onset,
+                                 ErrorMatrix* P) const {
   if (velocity_ < 0) return;
-  const GrowthMoments& moved = tape_.moved(k_);
+  const GrowthMoments moved = tape_.unseen_step(k_).Grown(onset);
   for (int i = 0; i < 3; ++i) {
     const int p = position_ + i;
     const int v = velocity_ + i;
@@ -34,7 +35,7 @@ ErrorMatrix ErrorChain::Phi(ErrorStep step) const {
   ErrorMatrix Phi = ErrorMatrix::Zero(dim(), dim());
   Phi.topLeftCorner(n, n) = tape_.linear().Phi(k_);
   Phi.bottomRightCorner<6, 6>() =
-      ErrorPhi(DynamicsOf(parameters_, step, dt_, grown_));
+      ErrorPhi(DynamicsOf(parameters_, step, dt_, unseen_));
   return Phi;
 }
 
@@ -52,11 +53,11 @@ ErrorMatrix ErrorChain::QAtOnce(ErrorStep step) const {
 }
 
 ErrorMatrix ErrorChain::Q(ErrorStep step) const {
-  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, grown_);
+  const ErrorDynamics d = DynamicsOf(parameters_, step, dt_, unseen_);
   ErrorMatrix Q = ErrorMatrix::Zero(dim(), dim());
   AddNavigationNoise(&Q);
   Q.bottomRightCorner<6, 6>() = ErrorQ(d);
-  AddVelocityStep(d.q_vv, &Q);
+  AddVelocityStep(d.q_vv, step.onset, &Q);
   return Q;
 }
 

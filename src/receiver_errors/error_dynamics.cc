@@ -5,7 +5,7 @@
 namespace hindsight {
 
 ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
-                         const GrowthMoments& grown) {
+                         const UnseenTime& unseen) {
   ErrorDynamics d;
   d.q_vv = step.velocity_step ? p.rate_sigma * p.rate_sigma : 0.0;
   switch (step.mode) {
@@ -27,8 +27,11 @@ ErrorDynamics DynamicsOf(const ErrorParameters& p, ErrorStep step, double dt,
       d.er = step.anew ? 0.0 : dt;
       d.rr = step.anew ? 0.0 : 1.0;
       d.q_rr = step.anew ? rate : rate * kDriftWalk * kDriftWalk * dt;
-      d.q_er = step.anew ? rate * grown.by_rate : 0.0;
-      d.q_ee = step.anew ? rate * grown.square : 0.0;
+      if (step.anew) {
+        const GrowthMoments grown = unseen.Grown(step.onset);
+        d.q_er = rate * grown.by_rate;
+        d.q_ee = rate * grown.square;
+      }
       break;
     }
   }

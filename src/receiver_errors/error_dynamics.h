@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "receiver_errors/growth_moments.h"
 #include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/onset.h"
 
 namespace hindsight {
 
@@ -18,7 +18,8 @@ inline constexpr double kDriftWalk = 1e-3;
 ///   cov(w_e, w_r) = (q_ee, q_er; q_er, q_rr),
 /// and a jump of the velocity of variance q_vv. Down, the third axis, w_e has `down` times
 /// the sigma of the others. Of a drift of a new rate r ~ N(0, s^2), which has grown for an
-/// unknown time, q_ee and q_er are s^2 times the moments `grown`, and q_rr is s^2.
+/// unknown part of the time `unseen`, q_ee and q_er are s^2 times UnseenTime::Grown, and q_rr
+/// is s^2.
 struct ErrorDynamics {
   double ee = 0.0, er = 0.0, rr = 0.0;
   double q_ee = 0.0, q_er = 0.0, q_rr = 0.0;
@@ -26,7 +27,7 @@ struct ErrorDynamics {
   double down = 1.0;
 };
 ErrorDynamics DynamicsOf(const ErrorParameters& parameters, ErrorStep step,
-                         double dt, const GrowthMoments& grown);
+                         double dt, const UnseenTime& unseen);
 
 /// Of w_e, by axis.
 Eigen::Vector3d ErrorVariances(const ErrorDynamics& d);

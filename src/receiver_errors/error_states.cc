@@ -37,7 +37,7 @@ ErrorStates::ErrorStates(const LinearTape& tape, int receiver,
     : tape_(tape),
       receiver_(receiver),
       rows_(RowsOf(tape, receiver)),
-      grown_(GrowthSinceFix(tape, receiver)),
+      unseen_(UnseenSinceFix(tape, receiver)),
       floor_(kNoError * stated_sigma),
       unit_(unit),
       kind_(kind),
@@ -169,7 +169,7 @@ std::vector<BlockStep> ErrorStates::StepsTo(
   const ErrorStep& before = chosen_.steps[k - 1];
   const ErrorStep& step = chosen_.steps[k];
   const double dt = tape_.t(k) - tape_.t(k - 1);
-  const ErrorDynamics d = DynamicsOf(parameters, step, dt, grown_[k]);
+  const ErrorDynamics d = DynamicsOf(parameters, step, dt, unseen_[k]);
   const double rate = parameters.rate_sigma * parameters.rate_sigma;
   BlockStep e = {.key = {BlockKind::kSensorError, receiver_},
                  .phi = d.ee,
@@ -188,7 +188,8 @@ std::vector<BlockStep> ErrorStates::StepsTo(
   if (drifts && step.anew && !follows) {
     // What is left of w_e beside the r that is known from here on.
     e.rate_share = d.q_er / d.q_rr / dt;
-    e.variance = d.q_ee - d.q_er * d.q_er / d.q_rr + floor_ * floor_;
+    e.variance =
+        std::max(0.0, d.q_ee - d.q_er * d.q_er / d.q_rr) + floor_ * floor_;
   }
   return {e, r};
 }

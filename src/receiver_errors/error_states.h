@@ -54,9 +54,9 @@ class ErrorStates {
 
   const LinearTape& tape_;
   int receiver_;
-  int rows_;                          ///< of the sensor's measurements
-  std::vector<GrowthMoments> grown_;  ///< by node
-  double floor_;                      ///< sigma of e where the sensor is good
+  int rows_;                        ///< of the sensor's measurements
+  std::vector<UnseenTime> unseen_;  ///< by node, of a drift
+  double floor_;                    ///< sigma of e where the sensor is good
   std::string unit_;
   ErrorRegimes::Kind kind_;
   const WeighedHypothesis& chosen_;

@@ -58,7 +58,7 @@ std::vector<int> SensorsInQuestion(const Timeline& timeline,
 MetHypotheses WithoutVelocitySteps(const MetHypotheses& fit) {
   MetHypotheses errors;
   for (Hypothesis h : fit) {
-    for (ErrorStep& step : h.sequence) step.velocity_step = false;
+    for (ErrorStep& step : h.sequence) step = WithoutVelocityStep(step);
     const bool is_known = std::ranges::any_of(errors, [&h](const auto& other) {
       return other.sequence == h.sequence;
     });

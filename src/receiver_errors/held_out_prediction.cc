@@ -56,6 +56,7 @@ std::optional<ErrorStep> HeldOutPrediction::LastChange(
   }
   if (!change) return change;
   change->velocity_step = false;
+  change->onset = Onset::kUsual;
   const ErrorMode before =
       stretch.begin == 0 ? ErrorMode::kGood : base[stretch.begin - 1].mode;
   if (change->mode == ErrorMode::kGood && before == ErrorMode::kGood) {

@@ -52,6 +52,7 @@ std::vector<ModeSequence> HiddenChanges(
     const ErrorMode was = ModeBefore(h, change);
     const ErrorMode is = h[change].mode;
     for (const std::size_t gap : Nearest(behind_gaps, change, change, after)) {
+      all.push_back(WithChangeMoved(h, change, gap));
       if (is != kGood) add({{kGood, gap, after}});
       if (was == kGood) continue;
       const ErrorStretch good = {kGood, before, change};
@@ -60,6 +61,7 @@ std::vector<ModeSequence> HiddenChanges(
       if (is != kGood) add({good, error, {is, gap, after}});
     }
     for (const std::size_t gap : Nearest(behind_gaps, change, before, change)) {
+      all.push_back(WithChangeMoved(h, change, gap));
       if (was != kGood) add({{kGood, before, gap}, {was, gap, change}});
       if (is == kGood) continue;
       const ErrorStretch error = {AsBias(is), gap, change};

@@ -8,8 +8,9 @@
 
 namespace hindsight {
 
-/// Hypotheses in which a gap hides how an error begins or ends: that which begins at a
-/// change of `sequence` ends behind a gap, or that which ends there begins behind one; or
+/// Hypotheses in which a gap hides how an error begins or ends: a change of `sequence` is
+/// behind an earlier or a later gap; or that which begins at it ends behind a gap, or that
+/// which ends there begins behind one; or
 /// the receiver is good on that side of the change and errs on the other, up to a gap or
 /// from one on. `behind_gaps` are the first fixes behind gaps, in order; of those on a
 /// side up to the next change the four next to the change.

@@ -47,8 +47,20 @@ std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence) {
   return order;
 }
 
+bool BeginsAtSomeTime(ErrorStep step) {
+  return step.velocity_step || (step.anew && step.mode == ErrorMode::kDrifting);
+}
+
+ErrorStep WithoutVelocityStep(ErrorStep step) {
+  step.velocity_step = false;
+  if (!BeginsAtSomeTime(step)) step.onset = Onset::kUsual;
+  return step;
+}
+
 double LogTransition(ErrorMode before, ErrorStep step, double share) {
+  const double of_onset = LogPriorOf(step.onset);
   step.outlier = false;
+  step.onset = Onset::kUsual;
   const bool good = before == ErrorMode::kGood;
   const bool small = good || before == ErrorMode::kSlight;
   const double jumps = small ? kJumps : kChanges;
@@ -57,7 +69,7 @@ double LogTransition(ErrorMode before, ErrorStep step, double share) {
   const double ends = good ? 0.0 : kEndsOfAnError;
   const double all = jumps + kSlights + drifts + stops + ends + kVelocitySteps;
   const auto log_of = [&](double rate) {
-    return std::log(rate / all * -std::expm1(-all * share));
+    return std::log(rate / all * -std::expm1(-all * share)) + of_onset;
   };
   if (step == kJump) return log_of(jumps);
   if (step == kSlightJump) return log_of(kSlights);
@@ -68,7 +80,9 @@ double LogTransition(ErrorMode before, ErrorStep step, double share) {
 }
 
 double LogFirst(ErrorStep step, double share) {
+  const double of_onset = LogPriorOf(step.onset);
   step.outlier = false;
+  step.onset = Onset::kUsual;
   // Shares of time in the stationary distribution of the transitions.
   constexpr double kBiased = kJumps / kEndsOfAnError;
   constexpr double kSlight = kSlights / kEndsOfAnError;
@@ -78,8 +92,8 @@ double LogFirst(ErrorStep step, double share) {
   if (step == kStayGood) return std::log(kOfWell);
   if (step == kSlightJump) return std::log(kOfWell * kSlight);
   if (step == kJump) return std::log(kOfErring * kBiased);
-  if (step == kBeginDrift) return std::log(kOfErring * kDrifting);
-  return LogTransition(ErrorMode::kGood, step, share);
+  if (step == kBeginDrift) return std::log(kOfErring * kDrifting) + of_onset;
+  return LogTransition(ErrorMode::kGood, step, share) + of_onset;
 }
 
 double LogOddsOfBeginningWell() {

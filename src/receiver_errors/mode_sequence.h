@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "receiver_errors/onset.h"
 #include "receiver_errors/sensor_tape.h"
 
 namespace hindsight {
@@ -20,14 +21,16 @@ enum class ErrorMode : char {
 /// follows a drift that stops. `velocity_step`: what goes on does so over an interval in
 /// which the velocity that the IMU integrates has a step that no noise explains
 /// (a shock beyond its range, lost samples), which else would pass for a drift of
-/// the receiver, at the last position or fix, where fixes are missing at any time since, as
-/// it else would pass for a bias. `outlier`: the fix is one whatever the likelihood says of it at its
-/// time: where the state is known badly, as behind a gap, only later fixes tell.
+/// the receiver. `outlier`: the fix is one whatever the likelihood says of it at its
+/// time: where the state is known badly, as behind a gap, only later fixes tell. `onset`:
+/// when a new drift, or the velocity step, began; usual of all else. A drift and a step
+/// begin alike: else the one would stand for the other.
 struct ErrorStep {
   ErrorMode mode = ErrorMode::kGood;
   bool anew = false;
   bool velocity_step = false;
   bool outlier = false;
+  Onset onset = Onset::kUsual;
   bool operator==(const ErrorStep&) const = default;
 };
 
@@ -36,6 +39,10 @@ using ModeSequence = std::vector<ErrorStep>;
 
 /// Whether it has no error of the receiver, whatever steps the IMU's velocity has.
 bool IsGoodThroughout(const ModeSequence& sequence);
+
+/// Whether it has an onset: of a new drift, or a velocity step.
+bool BeginsAtSomeTime(ErrorStep step);
+ErrorStep WithoutVelocityStep(ErrorStep step);
 
 /// The modes of a sequence in their order, whatever their change points.
 std::vector<ErrorMode> ModeOrder(const ModeSequence& sequence);

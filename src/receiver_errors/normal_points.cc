@@ -313,6 +313,8 @@ ModeSequence AtFixes(const NormalPoints& points, const ModeSequence& sequence) {
     out.push_back(first ? sequence[point]
                         : ErrorStep{.mode = sequence[point].mode,
                                     .outlier = sequence[point].outlier});
+    // The time before a fix is another than that before its point.
+    out.back().onset = Onset::kUsual;
   }
   return out;
 }

@@ -22,22 +22,20 @@ std::vector<double> SpacingsOf(const LinearTape& tape, int sensor) {
   return spacings;
 }
 
-/// Of what began since the last time that would have shown it, `since` ago [s], fixes coming
-/// every `spacing`.
-GrowthMoments GrowthOver(double since, double spacing) {
+/// Fixes coming every `spacing` [s].
+UnseenTime UnseenFor(double length, double spacing) {
   constexpr double kMissing = 1.5;
-  return since > kMissing * spacing ? GrowthMoments::Within(since)
-                                    : GrowthMoments::For(since);
+  return {length, length > kMissing * spacing};
 }
 
 }  // namespace
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
-  const std::vector<GrowthMoments> grown = GrowthSinceFix(tape, sensor);
+  const std::vector<UnseenTime> unseen = UnseenSinceFix(tape, sensor);
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
-    nodes_[k].grown = grown[k];
+    nodes_[k].unseen_drift = unseen[k];
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
     if (k == 0) continue;
     // A copy takes no more memory than it needs.
@@ -45,7 +43,7 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
     nodes_[k].over_interval = over_interval;
   }
   SetShares();
-  SetMoved();
+  SetUnseenSteps();
   SetNoisy();
 }
 
@@ -65,7 +63,7 @@ void SensorTape::SetShares() {
   }
 }
 
-void SensorTape::SetMoved() {
+void SensorTape::SetUnseenSteps() {
   const Block* position = tape_.layout().Find(BlockKind::kPosition);
   if (position == nullptr || position->dim != 3) return;
   const auto sees_position = [&](const TapeMeasurement& z) {
@@ -75,7 +73,7 @@ void SensorTape::SetMoved() {
   const double spacing = Median(SpacingsOf(tape_, sensor_));
   double last = t(0);
   for (std::size_t k = 0; k < size(); ++k) {
-    if (HasFix(k)) nodes_[k].moved = GrowthOver(t(k) - last, spacing);
+    if (HasFix(k)) nodes_[k].unseen_step = UnseenFor(t(k) - last, spacing);
     if (HasFix(k) ||
         std::ranges::any_of(tape_.measurements(k), sees_position)) {
       last = t(k);
@@ -96,15 +94,15 @@ void SensorTape::SetNoisy() {
   }
 }
 
-std::vector<GrowthMoments> GrowthSinceFix(const LinearTape& tape, int sensor) {
+std::vector<UnseenTime> UnseenSinceFix(const LinearTape& tape, int sensor) {
   const double spacing = Median(SpacingsOf(tape, sensor));
-  std::vector<GrowthMoments> growth;
+  std::vector<UnseenTime> unseen;
   double last = tape.size() == 0 ? 0.0 : tape.t(0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    growth.push_back(GrowthOver(tape.t(k) - last, spacing));
+    unseen.push_back(UnseenFor(tape.t(k) - last, spacing));
     if (HasFix(tape, k, sensor)) last = tape.t(k);
   }
-  return growth;
+  return unseen;
 }
 
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor) {

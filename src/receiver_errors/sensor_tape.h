@@ -7,7 +7,7 @@
 
 #include "filters/linear_tape.h"
 #include "linear/sparse_product.h"
-#include "receiver_errors/growth_moments.h"
+#include "receiver_errors/onset.h"
 
 namespace hindsight {
 
@@ -32,15 +32,16 @@ class SensorTape {
   /// by the mean interval and the number of fixes, of which twenty are the least. A gap is
   /// as many as it lacks.
   double share(std::size_t k) const { return nodes_[k].share; }
-  /// Of a drift that begins: since the fix before it, or, where a fix is missing in between
-  /// (the time is 1.5 times the median of those between fixes), since any time from there on.
-  /// Were it any time between neighbours, one might jump from the other by an error of which
-  /// the rate stays.
-  const GrowthMoments& grown(std::size_t k) const { return nodes_[k].grown; }
-  /// Of the position after a velocity step before a fix: the same since the last node that
-  /// saw the position, or had a fix of the sensor. A drift and a step are as free as each
-  /// other: else the one would stand for the other.
-  const GrowthMoments& moved(std::size_t k) const { return nodes_[k].moved; }
+  /// Of a drift that begins: since the fix before. It lacks a fix where it is more than 1.5
+  /// times the median of those between fixes.
+  const UnseenTime& unseen_drift(std::size_t k) const {
+    return nodes_[k].unseen_drift;
+  }
+  /// Of a velocity step before a fix: the same since the last node that saw the position, or
+  /// had a fix of the sensor.
+  const UnseenTime& unseen_step(std::size_t k) const {
+    return nodes_[k].unseen_step;
+  }
   /// With the transition of the interval that ends at node k >= 1.
   const SparseCongruence& OverInterval(std::size_t k) const {
     return nodes_[k].over_interval;
@@ -52,13 +53,13 @@ class SensorTape {
   struct Node {
     bool has_fix = false;
     double share = 0.0;
-    GrowthMoments grown;
-    GrowthMoments moved;
+    UnseenTime unseen_drift;
+    UnseenTime unseen_step;
     SparseCongruence over_interval;
   };
 
   void SetShares();
-  void SetMoved();
+  void SetUnseenSteps();
   void SetNoisy();
 
   const LinearTape& tape_;
@@ -70,8 +71,8 @@ class SensorTape {
 
 /// Whether the node has a fix of the sensor that is used.
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
-/// By node: of a drift that begins there, SensorTape::grown.
-std::vector<GrowthMoments> GrowthSinceFix(const LinearTape& tape, int sensor);
+/// By node: SensorTape::unseen_drift.
+std::vector<UnseenTime> UnseenSinceFix(const LinearTape& tape, int sensor);
 /// The fixes, counted from 0, before which there are none for longer than
 /// LongestSpacingWithoutGap, in order.
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);

@@ -20,6 +20,9 @@ void SetStep(std::size_t i, ErrorStep step, ModeSequence* h);
 /// Gives [begin, end) another error, drawn anew unless good, and keeps velocity steps.
 void SetError(ErrorMode mode, std::size_t begin, std::size_t end,
               ModeSequence* h);
+/// The sequence with its change at fix `from` at fix `to` instead, before the next change or
+/// behind the last one. Velocity steps in between stay.
+ModeSequence WithChangeMoved(ModeSequence h, std::size_t from, std::size_t to);
 
 }  // namespace hindsight
 

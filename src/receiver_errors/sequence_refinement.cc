@@ -122,11 +122,15 @@ class Refinement {
     });
     const double least = met_.front().log_posterior - kLeastPosterior;
     std::erase_if(met_, [&](const auto& h) { return h.log_posterior < least; });
-    // The mixture of a fix has the outlier in it: both would count it twice.
+    // The mixture of a fix has the outlier in it, and what begins as usual what begins in
+    // a quarter: both would count it twice.
     std::unordered_set<std::size_t> seen;
     std::erase_if(met_, [&seen](const auto& h) {
       ModeSequence modes = h.sequence;
-      for (ErrorStep& step : modes) step.outlier = false;
+      for (ErrorStep& step : modes) {
+        step.outlier = false;
+        step.onset = Onset::kUsual;
+      }
       return !seen.insert(HashOf(modes)).second;
     });
     return std::move(met_);

@@ -30,7 +30,7 @@ void ScoreOne(const SequenceTrial& trial, const SequenceSplice& splice,
 }  // namespace
 
 std::size_t HashOf(const ModeSequence& sequence) {
-  constexpr std::size_t kBytes = 4;
+  constexpr std::size_t kBytes = 5;
   static_assert(sizeof(ErrorStep) == kBytes);
   return std::hash<std::string_view>()(
       {reinterpret_cast<const char*>(sequence.data()),

@@ -29,15 +29,6 @@ void GoOn(ErrorMode mode, std::size_t begin, std::size_t end, ModeSequence* h) {
   for (std::size_t i = begin; i < end; ++i) SetStep(i, {mode}, h);
 }
 
-/// The sequence with its change at `from`, between `first` and `end`, at `to`.
-ModeSequence Moved(ModeSequence h, std::size_t from, std::size_t to) {
-  const ErrorStep step = h[from];
-  GoOn(ModeBefore(h, from), from, to, &h);
-  GoOn(step.mode, to, from + 1, &h);
-  SetStep(to, step, &h);
-  return h;
-}
-
 ModeSequence WithSegment(ModeSequence h, std::size_t begin, std::size_t end,
                          ErrorStep step) {
   GoOn(step.mode, begin, end, &h);
@@ -66,7 +57,8 @@ ModeSequence SteppedInPlaceOf(ModeSequence h,
   const std::size_t end = parts[c + 1];
   const ErrorMode before = ModeBefore(h, begin);
   for (std::size_t i = begin; i < end; ++i) {
-    SetStep(i, {before, false, i == begin || h[i].velocity_step}, &h);
+    const ErrorStep step = {before, false, i == begin || h[i].velocity_step};
+    SetStep(i, step, &h);
   }
   if (at_end) h[end].velocity_step = true;
   return h;
@@ -84,6 +76,25 @@ void AddSteppedInPlaceOfErrors(const ModeSequence& h,
     if (end < h.size() && !h[end].anew && !h[end].velocity_step) {
       all->push_back(SteppedInPlaceOf(h, at, c, true));
     }
+  }
+}
+
+/// What begins at change `at` may have begun at another time before that fix, or late
+/// before the one before it, which is not before `least`.
+void AddOtherOnsets(const ModeSequence& h, std::size_t at, std::size_t least,
+                    std::vector<ModeSequence>* all) {
+  if (!BeginsAtSomeTime(h[at])) return;
+  const auto add = [all](ModeSequence one, std::size_t i, Onset onset) {
+    one[i].onset = onset;
+    all->push_back(std::move(one));
+  };
+  for (const Onset onset : {Onset::kUsual, Onset::kFirst, Onset::kSecond,
+                            Onset::kThird, Onset::kFourth}) {
+    if (onset != h[at].onset) add(h, at, onset);
+  }
+  if (at < least + 1) return;
+  for (const Onset onset : {Onset::kSecond, Onset::kThird, Onset::kFourth}) {
+    add(WithChangeMoved(h, at, at - 1), at - 1, onset);
   }
 }
 
@@ -124,12 +135,13 @@ std::vector<ModeSequence> Variations(const ModeSequence& h) {
     const std::size_t least = c == 0 ? 0 : at[c - 1] + 1;
     for (const std::size_t shift : {1u, 2u, 4u, 8u}) {
       if (at[c] >= least + shift) {
-        all.push_back(Moved(h, at[c], at[c] - shift));
+        all.push_back(WithChangeMoved(h, at[c], at[c] - shift));
       }
       if (at[c] + shift < at[c + 1]) {
-        all.push_back(Moved(h, at[c], at[c] + shift));
+        all.push_back(WithChangeMoved(h, at[c], at[c] + shift));
       }
     }
+    AddOtherOnsets(h, at[c], least, &all);
     for (const ErrorStep step : StepsAfter(ModeBefore(h, at[c]))) {
       all.push_back(WithSegment(h, at[c], at[c + 1], step));
     }
@@ -185,7 +197,7 @@ std::vector<ModeSequence> RolesExchanged(const ModeSequence& h) {
 std::vector<ModeSequence> DriftsThatEnd(const ModeSequence& h) {
   std::vector<ModeSequence> all;
   const auto add = [&all](ModeSequence good, std::size_t jump) {
-    for (ErrorStep& step : good) step.velocity_step = false;
+    for (ErrorStep& step : good) step = WithoutVelocityStep(step);
     for (std::size_t length = kShortest; length <= jump;
          length = NextLength(length)) {
       all.push_back(good);

@@ -187,21 +187,19 @@ TEST(ErrorChain, AStateIsThatOfAllComponents) {
   }
 }
 
-/// What begins did so at the fix before, but at any time since where one is missing.
-TEST(SensorTape, ADriftBeginsAtAnyTimeWhereAFixIsMissing) {
+TEST(SensorTape, NothingIsSeenSinceTheFixBefore) {
   constexpr std::size_t kMissing = 15;
   const LinearTape tape = WithGap(kMissing, kMissing + 1);
   const SensorTape seen(tape, 0);
   ASSERT_FALSE(seen.HasFix(kMissing));
   for (const std::size_t k : {kMissing - 1, kMissing + 2}) {
-    const double T = tape.t(k) - tape.t(k - 1);
-    EXPECT_DOUBLE_EQ(seen.grown(k).square, T * T) << k;
-    EXPECT_DOUBLE_EQ(seen.grown(k).by_rate, T) << k;
+    EXPECT_EQ(seen.unseen_drift(k).length, tape.t(k) - tape.t(k - 1)) << k;
+    EXPECT_FALSE(seen.unseen_drift(k).lacks_fix) << k;
   }
   const double T = tape.t(kMissing + 1) - tape.t(kMissing - 1);
-  EXPECT_DOUBLE_EQ(seen.grown(kMissing + 1).square, T * T / 3.0);
-  EXPECT_DOUBLE_EQ(seen.grown(kMissing + 1).by_rate, T / 2.0);
-  EXPECT_DOUBLE_EQ(seen.moved(kMissing + 1).square, T * T / 3.0);
+  EXPECT_EQ(seen.unseen_drift(kMissing + 1).length, T);
+  EXPECT_TRUE(seen.unseen_drift(kMissing + 1).lacks_fix);
+  EXPECT_TRUE(seen.unseen_step(kMissing + 1).lacks_fix);
 }
 
 /// Else the one stands for the other.
@@ -212,30 +210,35 @@ TEST(SensorTape, OfALoneReceiverADriftAndAStepOfTheVelocityBeginAlike) {
   for (std::size_t k = 0; k < seen.size(); ++k) {
     if (!seen.HasFix(k)) continue;
     ++fixes;
-    EXPECT_EQ(seen.moved(k).square, seen.grown(k).square) << k;
-    EXPECT_EQ(seen.moved(k).by_rate, seen.grown(k).by_rate) << k;
+    EXPECT_EQ(seen.unseen_step(k).length, seen.unseen_drift(k).length) << k;
+    EXPECT_EQ(seen.unseen_step(k).lacks_fix, seen.unseen_drift(k).lacks_fix)
+        << k;
   }
   EXPECT_GT(fixes, 20);
 }
 
-/// A step of the velocity was at the last fix, but behind a gap at any time of it: moments of
-/// dv u, u uniform.
+/// A step of the velocity was at the last fix, but behind a gap at any time of it, or in a
+/// quarter: moments of dv u, u uniform.
 TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
   constexpr std::size_t kBegin = 15;
   constexpr std::size_t kEnd = 25;
   const LinearTape tape = WithGap(kBegin, kEnd);
   ErrorParameters p = WithoutOutliers();
   p.rate_sigma = 0.3;
-  for (const auto& [node, last, square, by_rate] :
-       {std::tuple{kBegin - 1, kBegin - 2, 1.0, 1.0},
-        {kEnd, kBegin - 1, 1.0 / 3.0, 0.5}}) {
+  for (const auto& [node, last, onset, square, by_rate] :
+       {std::tuple{kBegin - 1, kBegin - 2, Onset::kUsual, 1.0, 1.0},
+        {kBegin - 1, kBegin - 2, Onset::kSecond, 19.0 / 48.0, 0.625},
+        {kEnd, kBegin - 1, Onset::kUsual, 1.0 / 3.0, 0.5},
+        {kEnd, kBegin - 1, Onset::kFourth, 1.0 / 48.0, 0.125}}) {
+    ErrorStep steps = kStepVelocity;
+    steps.onset = onset;
     const SensorTape seen(tape, 0);
     ErrorChain chain(seen, p);
     Gaussian x = PredictedTo(node, &chain);
-    const auto before = chain.LikelihoodAfter(kStepVelocity, chain.ViewOf(x));
+    const auto before = chain.LikelihoodAfter(steps, chain.ViewOf(x));
     Gaussian stepped = x;
     chain.PredictError(kStayGood, &x);
-    chain.PredictError(kStepVelocity, &stepped);
+    chain.PredictError(steps, &stepped);
     const double T = tape.t(node) - tape.t(last);
     const double q = p.rate_sigma * p.rate_sigma;
     const int pos = tape.layout().Find(BlockKind::kPosition)->offset;
@@ -249,10 +252,8 @@ TEST(ErrorChain, StepsOfTheVelocityReachOverAGap) {
     EXPECT_TRUE(
         (added.block<3, 3>(pos, vel).isApprox(q * T * by_rate * I, 1e-9)));
     EXPECT_TRUE((added.block<3, 3>(vel, vel).isApprox(q * I, 1e-9)));
-    EXPECT_NEAR(before.log, chain.LikelihoodOfFix(kStepVelocity, stepped).log,
-                1e-9);
-    EXPECT_TRUE(
-        (chain.Q(kStepVelocity) - chain.Q(kStayGood)).isApprox(added, 1e-9));
+    EXPECT_NEAR(before.log, chain.LikelihoodOfFix(steps, stepped).log, 1e-9);
+    EXPECT_TRUE((chain.Q(steps) - chain.Q(kStayGood)).isApprox(added, 1e-9));
   }
 }
 

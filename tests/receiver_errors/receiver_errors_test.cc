@@ -798,6 +798,65 @@ TEST(ReceiverErrors, MayBeginToDriftWithinAGap) {
   EXPECT_NEAR(P(e, r), P(r, r) * 4.0, 1e-3 * P(e, r));
 }
 
+/// In the second quarter of the second between two fixes.
+TEST(ReceiverErrors, MayBeginToDriftBetweenTwoFixes) {
+  constexpr double kBegin = 20.4;
+  TestProblem test = FixesOfOneMinute();
+  for (Measurement& z : test.measurements) {
+    if (z.t < kBegin || z.t > 32.5) continue;
+    auto& fix = std::get<PositionFix>(z.model);
+    fix.p_e +=
+        NedAxes(fix.p_e) * ((z.t - kBegin) * Eigen::Vector3d(12.0, -16.0, 0.0));
+  }
+  Found found(test);
+  ASSERT_TRUE(found.errors.Stands());
+  EXPECT_THAT(found.errors.InWords(), AllOf(HasSubstr("drifting from 21 to"),
+                                            Not(HasSubstr("biased"))));
+  const std::vector<State> states = found.errors.States(found.problem.layout);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 1.5) << k;
+  }
+  // Of the batch as of the search.
+  const LinearTape extended = RunLinearizedFilter(states, &found.problem);
+  const ErrorLayout& layout = found.problem.layout;
+  const int e = layout.Find(BlockKind::kSensorError, 0)->offset;
+  const int r = layout.Find(BlockKind::kErrorRate, 0)->offset;
+  ASSERT_NEAR(extended.t(21), 21.0, 1e-6);
+  const ErrorMatrix P = extended.P_minus(21);
+  EXPECT_NEAR(P(e, e), P(r, r) * 19.0 / 48.0, 1e-3 * P(e, e));
+  EXPECT_NEAR(P(e, r), P(r, r) * 0.625, 1e-3 * P(e, r));
+}
+
+/// A step of the IMU's velocity is seen by all that measures as a change of the vehicle's:
+/// neither of them errs.
+TEST(ReceiverErrors, AreNoneBesideAStepOfTheImuBetweenTwoFixes) {
+  constexpr double kStep = 35.45;
+  const Eigen::Vector3d dv(5.0, 2.5, 0.0);
+  TestProblemOptions options;
+  options.noise = TacticalNoise(true);
+  options.layout = TypicalLayout(options.noise);
+  options.errors = true;
+  options.duration = 60.0;
+  options.position_sigma = 0.5;
+  options.velocity_sigma = 0.1;
+  TestProblem test = MakeProblem(options, 3);
+  for (Measurement& z : test.measurements) {
+    if (z.t < kStep) continue;
+    if (auto* fix = std::get_if<PositionFix>(&z.model)) {
+      fix->p_e += NedAxes(fix->p_e) * ((z.t - kStep) * dv);
+    } else {
+      std::get<VelocityFix>(z.model).v_n += dv;
+    }
+  }
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  for (const ReceiverErrors& one : FindReceiverErrors(problem, tape)) {
+    EXPECT_THAT(one.InWords(),
+                AllOf(HasSubstr("the IMU's velocity steps at 36 s"),
+                      Not(HasSubstr("biased")), Not(HasSubstr("drifting"))));
+  }
+}
+
 TEST(ReceiverErrors, BesideStepsOfAnImuThatHardlyErrsElseAreDoubtful) {
   const TestProblem test = WithFastDrift();
   Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));

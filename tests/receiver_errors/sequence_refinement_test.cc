@@ -78,12 +78,42 @@ TEST(RefineHypotheses, EndAnErrorWhereAGapHidesItsEnd) {
   std::fill(right.begin() + behind_gap, right.end(), ErrorStep{});
   ErrorParameters p = WithoutOutliers();
   p.sigma = 2.0;
-  std::vector<ModeSequence> found;
-  for (const Hypothesis& one : RefineHypotheses({tape, 0}, p, {{lasting}})) {
-    found.push_back(one.sequence);
+  for (const ModeSequence& from : {lasting, right}) {
+    std::vector<ModeSequence> found;
+    for (const Hypothesis& one : RefineHypotheses({tape, 0}, p, {{from}})) {
+      found.push_back(one.sequence);
+    }
+    EXPECT_EQ(std::ranges::count(found, lasting), 1);
+    EXPECT_EQ(std::ranges::count(found, right), 1);
   }
-  EXPECT_EQ(std::ranges::count(found, lasting), 1);
-  EXPECT_EQ(std::ranges::count(found, right), 1);
+}
+
+/// Of a drift that is metres farther at its first fix if it began at the fix before.
+TEST(ClimbSequences, TellWhenBetweenTwoFixesADriftBegan) {
+  constexpr std::size_t kFirst = 30;
+  constexpr std::size_t kEnd = 50;
+  const Eigen::Vector3d rate(12.0, -9.0, 0.0);
+  for (const auto& [share, onset] : {std::pair{0.875, Onset::kFirst},
+                                     {0.625, Onset::kSecond},
+                                     {0.375, Onset::kThird},
+                                     {0.125, Onset::kFourth}}) {
+    TestProblem problem = PositionsOnly(80.0);
+    for (std::size_t k = kFirst; k < kEnd; ++k) {
+      const double T = problem.truth[kFirst].t - problem.truth[kFirst - 1].t;
+      const double u = problem.truth[k].t - problem.truth[kFirst].t + share * T;
+      AddError(k, k + 1, u * rate, &problem);
+    }
+    const LinearTape tape = TapeOf(problem);
+    ErrorParameters p = WithoutOutliers();
+    p.rate_sigma = 10.0;
+    ModeSequence start = Good(tape);
+    for (std::size_t i = kFirst; i < kEnd; ++i) {
+      start[i] = {ErrorMode::kDrifting, i == kFirst};
+    }
+    ModeSequence right = start;
+    right[kFirst].onset = onset;
+    EXPECT_EQ(ClimbSequences({tape, 0}, p, {{start}}), right) << share;
+  }
 }
 
 TEST_F(Refinement, IsAbandonedWhereWhoeverIsAskedThrows) {
