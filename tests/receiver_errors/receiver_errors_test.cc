@@ -16,6 +16,7 @@
 #include "measurements/height_fix.h"
 #include "measurements/magnetic_field.h"
 #include "receiver_errors/mode_sequence.h"
+#include "receiver_errors/onset.h"
 #include "receiver_errors/sensor_findings.h"
 #include "receiver_errors/sequence_smoother.h"
 #include "support/test_problem.h"
@@ -34,7 +35,8 @@ using testing::TestProblem;
 using testing::TestProblemOptions;
 using testing::TypicalLayout;
 
-TestProblem FixesOfOneMinute(double spacing = 1.0) {
+TestProblem FixesOfOneMinute(double spacing = 1.0,
+                             double velocity_sigma = 0.0) {
   TestProblemOptions options;
   options.spacing = spacing;
   options.noise = TacticalNoise(true);
@@ -42,7 +44,7 @@ TestProblem FixesOfOneMinute(double spacing = 1.0) {
   options.errors = true;
   options.duration = 60.0;
   options.position_sigma = 0.5;
-  options.velocity_sigma = 0.0;
+  options.velocity_sigma = velocity_sigma;
   return MakeProblem(options, 3);
 }
 
@@ -766,6 +768,18 @@ TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
   EXPECT_LT((states[28].p_e - test.truth[28].p_e).norm(), 3.0);
 }
 
+/// Of a drift that begins at 21 s, in the batch as in the search.
+void ExpectGrownAt21(const GrowthMoments& grown,
+                     const std::vector<State>& states, Problem* problem) {
+  const LinearTape extended = RunLinearizedFilter(states, problem);
+  const int e = problem->layout.Find(BlockKind::kSensorError, 0)->offset;
+  const int r = problem->layout.Find(BlockKind::kErrorRate, 0)->offset;
+  ASSERT_NEAR(extended.t(21), 21.0, 1e-6);
+  const ErrorMatrix P = extended.P_minus(21);
+  EXPECT_NEAR(P(e, e), P(r, r) * grown.square, 1e-3 * P(e, e));
+  EXPECT_NEAR(P(e, r), P(r, r) * grown.by_rate, 1e-3 * P(e, r));
+}
+
 /// An error that begins where no fix sees it is one drift, not a bias that drifts on.
 TEST(ReceiverErrors, MayBeginToDriftWithinAGap) {
   TestProblem test = FixesOfOneMinute();
@@ -788,14 +802,8 @@ TEST(ReceiverErrors, MayBeginToDriftWithinAGap) {
   for (std::size_t k = 0; k < states.size(); ++k) {
     EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 3.0) << k;
   }
-  // Of the batch as of the search: at 21 s, 8 s behind the fix before.
-  const LinearTape extended = RunLinearizedFilter(states, &problem);
-  const int e = problem.layout.Find(BlockKind::kSensorError, 0)->offset;
-  const int r = problem.layout.Find(BlockKind::kErrorRate, 0)->offset;
-  ASSERT_NEAR(extended.t(21), 21.0, 1e-6);
-  const ErrorMatrix P = extended.P_minus(21);
-  EXPECT_NEAR(P(e, e), P(r, r) * 64.0 / 3.0, 1e-3 * P(e, e));
-  EXPECT_NEAR(P(e, r), P(r, r) * 4.0, 1e-3 * P(e, r));
+  // Eight seconds behind the fix before.
+  ExpectGrownAt21(GrowthMoments::Between(0.0, 8.0), states, &problem);
 }
 
 /// In the second quarter of the second between two fixes.
@@ -816,15 +824,7 @@ TEST(ReceiverErrors, MayBeginToDriftBetweenTwoFixes) {
   for (std::size_t k = 0; k < states.size(); ++k) {
     EXPECT_LT((states[k].p_e - test.truth[k].p_e).norm(), 1.5) << k;
   }
-  // Of the batch as of the search.
-  const LinearTape extended = RunLinearizedFilter(states, &found.problem);
-  const ErrorLayout& layout = found.problem.layout;
-  const int e = layout.Find(BlockKind::kSensorError, 0)->offset;
-  const int r = layout.Find(BlockKind::kErrorRate, 0)->offset;
-  ASSERT_NEAR(extended.t(21), 21.0, 1e-6);
-  const ErrorMatrix P = extended.P_minus(21);
-  EXPECT_NEAR(P(e, e), P(r, r) * 19.0 / 48.0, 1e-3 * P(e, e));
-  EXPECT_NEAR(P(e, r), P(r, r) * 0.625, 1e-3 * P(e, r));
+  ExpectGrownAt21(GrowthMoments::Between(0.5, 0.75), states, &found.problem);
 }
 
 /// A step of the IMU's velocity is seen by all that measures as a change of the vehicle's:
@@ -832,14 +832,7 @@ TEST(ReceiverErrors, MayBeginToDriftBetweenTwoFixes) {
 TEST(ReceiverErrors, AreNoneBesideAStepOfTheImuBetweenTwoFixes) {
   constexpr double kStep = 35.45;
   const Eigen::Vector3d dv(5.0, 2.5, 0.0);
-  TestProblemOptions options;
-  options.noise = TacticalNoise(true);
-  options.layout = TypicalLayout(options.noise);
-  options.errors = true;
-  options.duration = 60.0;
-  options.position_sigma = 0.5;
-  options.velocity_sigma = 0.1;
-  TestProblem test = MakeProblem(options, 3);
+  TestProblem test = FixesOfOneMinute(1.0, 0.1);
   for (Measurement& z : test.measurements) {
     if (z.t < kStep) continue;
     if (auto* fix = std::get_if<PositionFix>(&z.model)) {
