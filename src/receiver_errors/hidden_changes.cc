@@ -33,6 +33,20 @@ std::vector<std::size_t> Nearest(const std::vector<std::size_t>& behind_gaps,
              : std::vector(past - std::min(kMost, past - first), past);
 }
 
+/// The sequence with the change of the receiver's error at fix `from` at fix `to` instead.
+/// Velocity steps are the IMU's, and stay where nothing of the receiver begins.
+ModeSequence ErrorChangeMoved(const ModeSequence& h, std::size_t from,
+                              std::size_t to) {
+  ModeSequence moved = WithChangeMoved(h, from, to);
+  for (const std::size_t i : {from, to}) {
+    moved[i] = WithoutVelocityStep(moved[i]);
+    if (!h[i].velocity_step || moved[i].anew) continue;
+    moved[i].velocity_step = true;
+    moved[i].onset = h[i].onset;
+  }
+  return moved;
+}
+
 }  // namespace
 
 std::vector<ModeSequence> HiddenChanges(
@@ -52,7 +66,7 @@ std::vector<ModeSequence> HiddenChanges(
     const ErrorMode was = ModeBefore(h, change);
     const ErrorMode is = h[change].mode;
     for (const std::size_t gap : Nearest(behind_gaps, change, change, after)) {
-      all.push_back(WithChangeMoved(h, change, gap));
+      all.push_back(ErrorChangeMoved(h, change, gap));
       if (is != kGood) add({{kGood, gap, after}});
       if (was == kGood) continue;
       const ErrorStretch good = {kGood, before, change};
@@ -61,7 +75,7 @@ std::vector<ModeSequence> HiddenChanges(
       if (is != kGood) add({good, error, {is, gap, after}});
     }
     for (const std::size_t gap : Nearest(behind_gaps, change, before, change)) {
-      all.push_back(WithChangeMoved(h, change, gap));
+      all.push_back(ErrorChangeMoved(h, change, gap));
       if (was != kGood) add({{kGood, before, gap}, {was, gap, change}});
       if (is == kGood) continue;
       const ErrorStretch error = {AsBias(is), gap, change};

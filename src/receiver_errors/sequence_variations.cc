@@ -36,14 +36,22 @@ ModeSequence WithSegment(ModeSequence h, std::size_t begin, std::size_t end,
   return h;
 }
 
+/// A mode goes on over a velocity step in place of what began at a fix, when that did.
+ErrorStep Stepping(ErrorMode mode, const ErrorStep& began) {
+  return {.mode = mode,
+          .velocity_step = true,
+          .onset = BeginsAtSomeTime(began) ? began.onset : Onset::kUsual};
+}
+
 /// From change c on the receiver is good and the IMU velocity steps instead.
 ModeSequence WithVelocitySteps(ModeSequence h,
                                const std::vector<std::size_t>& at,
                                std::size_t c) {
   const bool returns = ModeBefore(h, at[c]) != ErrorMode::kGood;
+  const ModeSequence errors = h;
   GoOn(ErrorMode::kGood, at[c], h.size(), &h);
   for (std::size_t i = returns ? c + 1 : c; i + 1 < at.size(); ++i) {
-    h[at[i]].velocity_step = true;
+    SetStep(at[i], Stepping(ErrorMode::kGood, errors[at[i]]), &h);
   }
   return h;
 }
@@ -57,8 +65,8 @@ ModeSequence SteppedInPlaceOf(ModeSequence h,
   const std::size_t end = parts[c + 1];
   const ErrorMode before = ModeBefore(h, begin);
   for (std::size_t i = begin; i < end; ++i) {
-    const ErrorStep step = {before, false, i == begin || h[i].velocity_step};
-    SetStep(i, step, &h);
+    const bool steps = i == begin || h[i].velocity_step;
+    SetStep(i, steps ? Stepping(before, h[i]) : ErrorStep{before}, &h);
   }
   if (at_end) h[end].velocity_step = true;
   return h;

@@ -379,6 +379,39 @@ TEST(HiddenChanges, AChangeThatMovesLeavesStepsOfTheVelocity) {
   }
 }
 
+/// Also at the fixes between which it moves: of the end of an error, with which one may be.
+TEST(HiddenChanges, AnEndThatMovesLeavesStepsOfTheVelocity) {
+  for (const std::size_t gap : {10u, 40u}) {
+    ModeSequence h = Biased(60, {{5, 20}});
+    ModeSequence moved = Biased(60, {{5, gap}});
+    for (ModeSequence* one : {&h, &moved}) {
+      (*one)[20].velocity_step = true;
+      (*one)[20].onset = Onset::kSecond;
+      (*one)[gap].velocity_step = true;
+      (*one)[gap].onset = Onset::kThird;
+    }
+    const std::vector<ModeSequence> all = HiddenChanges(h, {gap});
+    EXPECT_EQ(std::ranges::count(all, moved), gap > 20 ? 1 : 2) << gap;
+  }
+}
+
+/// When it did: what is told by another fix is scored by what it is off there.
+TEST(ModeSequence, AStepOfTheVelocityBeginsWhenTheDriftDidInItsPlace) {
+  ModeSequence drift(60);
+  for (std::size_t i = 20; i < 40; ++i) {
+    drift[i] = {ErrorMode::kDrifting, i == 20};
+  }
+  drift[20].onset = Onset::kThird;
+  drift[30].velocity_step = true;
+  drift[30].onset = Onset::kFourth;
+  ModeSequence steps(60);
+  for (const std::size_t i : {20u, 30u}) {
+    steps[i].velocity_step = true;
+    steps[i].onset = drift[i].onset;
+  }
+  EXPECT_GE(std::ranges::count(Variations(drift), steps), 1);
+}
+
 TEST(HiddenChanges, AreBehindTheNearestGaps) {
   std::vector<std::size_t> behind_gaps;
   for (std::size_t i = 5; i < 100; i += 5) behind_gaps.push_back(i);
