@@ -44,19 +44,6 @@ bool IsHeldByStated(const ErrorParameters& p) {
   return p.scale < kHalf && p.imu_scale < kHalf;
 }
 
-/// Whether the sensor is slightly biased at seven fixes of eight, and else good: a
-/// Gauss-Markov error throughout, but that it jumps.
-bool IsSlightThroughout(const ModeSequence& sequence) {
-  constexpr std::size_t kOneOf = 8;
-  const auto count = [&sequence](ErrorMode mode) {
-    return static_cast<std::size_t>(
-        std::ranges::count(sequence, mode, &ErrorStep::mode));
-  };
-  const std::size_t slight = count(ErrorMode::kSlight);
-  const std::size_t good = count(ErrorMode::kGood);
-  return slight + good == sequence.size() && kOneOf * good <= sequence.size();
-}
-
 /// The clause for a loss on held-out stretches; "" if there is none.
 std::string LossTo(const RegimeProblem& problem, const ErrorRegimes& one,
                    const ErrorRegimes& simpler) {
@@ -84,8 +71,9 @@ std::string Objection(const RegimeProblem& problem,
   if (one.kind == Kind::kWhite && !CanBeSolved(best.parameters)) {
     return AsStatedTimes(best.parameters);
   }
-  const std::string held = HeldByStated(all, one);
-  if (!held.empty()) return held;
+  if (one.kind == Kind::kGaussMarkov && IsHeldByStated(best.parameters)) {
+    return AsStatedTimes(best.parameters);
+  }
   for (const ErrorRegimes& simpler : all) {
     if (simpler.kind >= one.kind || simpler.kind > Kind::kWhite) continue;
     const double gain = one.log_evidence - simpler.log_evidence;
@@ -187,20 +175,6 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 }
 
 }  // namespace
-
-std::string HeldByStated(const std::vector<ErrorRegimes>& all,
-                         const ErrorRegimes& one) {
-  const bool jumps = one.kind == Kind::kSwitching &&
-                     IsSlightThroughout(one.hypotheses.front().sequence);
-  if (!jumps && one.kind != Kind::kGaussMarkov) return "";
-  const auto slow =
-      std::ranges::find(all, Kind::kGaussMarkov, &ErrorRegimes::kind);
-  if (slow == all.end()) return "";
-  const ErrorParameters& p = slow->hypotheses.front().parameters;
-  if (!IsHeldByStated(p)) return "";
-  return (jumps ? "are slight at nearly every fix, and without jumps " : "") +
-         AsStatedTimes(p);
-}
 
 std::optional<OpenBias> LeftOpen(const SlightBias& slight, double log_gain) {
   const OpenBias open = {slight.expected,

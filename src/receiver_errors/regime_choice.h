@@ -64,20 +64,15 @@ struct RegimeChoice {
   std::optional<OpenBias> open;
 };
 
-/// Why errors do not stand that are Gauss-Markov, or slight at seven fixes of eight, and else
-/// good, beside such ones of `all`: these have fixes and the IMU at less than half of what is
-/// stated. A stated sigma has slow errors in it, and where both are better nothing tells whose
-/// what is slow is. "" if they may stand.
-std::string HeldByStated(const std::vector<ErrorRegimes>& all,
-                         const ErrorRegimes& one);
-
 /// The one of the largest evidence that stands: it
 ///   - wins by kLeastGain, or kLeastGainOfSwitching, over every simpler one;
 ///   - has no parameter at a bound of its search;
 ///   - if it is white, is what the batch can be solved with (CanBeSolved): with
 ///     an IMU worse than stated by more than kMisstatedImu it is no matter of
 ///     this sensor, and with better fixes nothing that is made use of;
-///   - is not HeldByStated;
+///   - if it is Gauss-Markov, has fixes or the IMU at half of what is stated at least: a
+///     stated sigma has slow errors in it, and where both are better nothing tells whose
+///     what is slow is;
 ///   - does not lose to the stated noise, nor, if it is not white, to white
 ///     errors on held-out stretches (CompareHeldOut, at any length).
 RegimeChoice ChooseRegime(const RegimeProblem& problem,

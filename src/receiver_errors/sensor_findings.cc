@@ -114,19 +114,7 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
                              limits.go_on(kSearch + (1.0 - kSearch) * fraction);
                     });
   if (points && stands()) {
-    Refine(fixes, *points, all, &rest);
-    // At all fixes errors may be slight where averages were good.
-    const std::string held = HeldByStated(all, regimes);
-    if (!held.empty()) {
-      std::erase_if(all, [](const ErrorRegimes& one) {
-        return one.kind == ErrorRegimes::Kind::kSwitching;
-      });
-      choice = ChooseRegime(regime, all);
-      open = choice.open;
-      choice.refused.push_back(fmt::format("{} errors do not stand: they {}",
-                                           RegimeName(regimes.kind), held));
-      ChooseNoise(fixes, &rest);
-    }
+    Refine(fixes, *points, std::move(all), &rest);
   } else if (points) {
     ChooseNoise(fixes, &rest);
   } else if (stands()) {
@@ -233,7 +221,7 @@ void SensorFindings::ChooseNoise(const SensorTape& fixes,
 }
 
 void SensorFindings::Refine(const SensorTape& fixes, const NormalPoints& points,
-                            const std::vector<ErrorRegimes>& found,
+                            std::vector<ErrorRegimes> found,
                             SearchEffort* effort) {
   constexpr double kFarBehind = 12.0;  // ln
   const RegimeProblem problem{fixes, stated_sigma, false, effort};

@@ -86,7 +86,7 @@ struct SensorFindings : ErrorDecisions {
                            const ModeSequence& sequence) const;
   /// What was found on normal points, at all fixes, on a tape that holds them.
   void Refine(const SensorTape& fixes, const NormalPoints& points,
-              const std::vector<ErrorRegimes>& found, SearchEffort* effort);
+              std::vector<ErrorRegimes> found, SearchEffort* effort);
   /// The noise of all fixes, where normal points show no errors: outliers among
   /// fixes are not in them.
   void ChooseNoise(const SensorTape& fixes, SearchEffort* effort);

@@ -12,7 +12,6 @@ namespace hindsight {
 namespace {
 
 using testing::AddError;
-using ::testing::Contains;
 using ::testing::DoubleEq;
 using ::testing::Each;
 using ::testing::ElementsAre;
@@ -97,39 +96,6 @@ TEST(RegimeChoice, GaussMarkovErrorsNeedFixesOrAnImuAsStated) {
               ElementsAre("Gauss-Markov errors do not stand: they take the "
                           "fixes for 0.2, the noise of the IMU for 0.1 times "
                           "as stated"));
-}
-
-/// A slight bias at nearly every fix is a Gauss-Markov error throughout, also if it jumps.
-TEST(RegimeChoice, SlightBiasesThroughoutNeedFixesOrAnImuAsStated) {
-  constexpr ErrorMode kSlight = ErrorMode::kSlight;
-  const Posed posed(80.0);
-  const auto choose = [&](double of_first, ErrorMode first, double scale) {
-    ErrorRegimes slow = Regime(posed.tape, Kind::kGaussMarkov, 10.0);
-    slow.hypotheses[0].parameters.scale = scale;
-    slow.hypotheses[0].parameters.imu_scale = 0.1;
-    ErrorRegimes jumps = Regime(posed.tape, Kind::kSwitching, 40.0);
-    ModeSequence& sequence = jumps.hypotheses[0].sequence;
-    const auto fixes = static_cast<double>(sequence.size());
-    const auto part = static_cast<std::size_t>(of_first * fixes);
-    for (std::size_t i = 0; i < sequence.size(); ++i) {
-      const ErrorMode mode = i < part ? first : kSlight;
-      sequence[i] = {mode, mode != ErrorMode::kGood && (i == 0 || i == part)};
-    }
-    return ChooseRegime(posed.problem,
-                        {Regime(posed.tape, Kind::kStated, 0.0),
-                         Regime(posed.tape, Kind::kWhite, 1.0), slow, jumps})
-        .refused;
-  };
-  const auto refused = Contains(
-      "switching errors do not stand: they are slight at nearly every "
-      "fix, and without jumps take the fixes for 0.2, the noise of "
-      "the IMU for 0.1 times as stated");
-  EXPECT_THAT(choose(0.5, kSlight, 0.2), refused);
-  EXPECT_THAT(choose(0.12, ErrorMode::kGood, 0.2), refused);
-  const auto others = Each(Not(HasSubstr("slight at nearly")));
-  EXPECT_THAT(choose(0.5, kSlight, 0.6), others);
-  EXPECT_THAT(choose(0.15, ErrorMode::kGood, 0.2), others);
-  EXPECT_THAT(choose(0.05, ErrorMode::kBiased, 0.2), others);
 }
 
 TEST(RegimeChoice, LeavesUndecidedWhatIsWithinOddsOfAThousandOfNoise) {
