@@ -49,7 +49,7 @@ TEST(ErrorDynamics, ADriftBeganAtAnyTimeOfItsOnset) {
   }
 }
 
-/// Of an error r T, whatever the interval. In a quarter it began there as well.
+/// Of an error r T, whatever the interval; in a quarter of T where that is told.
 TEST(ErrorDynamics, ADriftBeganAtTheFixBefore) {
   ErrorParameters p;
   p.rate_sigma = 0.3;
