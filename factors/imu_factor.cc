@@ -31,7 +31,7 @@ bool IsBias(BlockKind kind) {
 /// Covariance of all rows of the factor.
 Eigen::MatrixXd FactorNoise(const StateBlocks& blocks,
                             const NodeInterval& interval, double distance) {
-  const ImuLink::Matrix15 S15 = LinkNoise(interval.summary);
+  const ImuLink::Matrix15 S15 = LinkNoise(interval);
   Eigen::MatrixXd S =
       Eigen::MatrixXd::Zero(blocks.node_dim(), blocks.node_dim());
   S.topLeftCorner<9, 9>() = S15.topLeftCorner<9, 9>();

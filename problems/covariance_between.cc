@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "problems/sample_solution.h"
+#include "problems/step_bridge.h"
 #include "timeline/time_update.h"
 
 namespace hindsight {
@@ -96,7 +97,26 @@ ErrorMatrix CovarianceBetween::At(std::size_t k, double t) {
   std::size_t i = 1;
   while (i + 1 < t_.size() && t_[i] < t) ++i;
   const double a = (t - t_[i - 1]) / (t_[i] - t_[i - 1]);
-  return (1.0 - a) * P_[i - 1] + a * P_[i];
+  ErrorMatrix P = (1.0 - a) * P_[i - 1] + a * P_[i];
+  if (!solution_.forward) AddSteps(k, t, &P);
+  return P;
+}
+
+void CovarianceBetween::AddSteps(std::size_t k, double t,
+                                 ErrorMatrix* P) const {
+  const auto bridge = BridgeOverSteps(timeline_, k, t);
+  const Block* position = solution_.layout.Find(BlockKind::kPosition);
+  const Block* velocity = solution_.layout.Find(BlockKind::kVelocity);
+  if (!bridge || position == nullptr || velocity == nullptr) return;
+  const Eigen::Matrix2d& C = bridge->covariance;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int p = position->offset + axis;
+    const int v = velocity->offset + axis;
+    (*P)(p, p) += C(0, 0);
+    (*P)(p, v) += C(0, 1);
+    (*P)(v, p) += C(1, 0);
+    (*P)(v, v) += C(1, 1);
+  }
 }
 
 void CovarianceBetween::StepFrom(std::size_t k) {
@@ -125,7 +145,7 @@ void CovarianceBetween::ForEachStep(std::size_t k, const Step& step) {
     const State begin = end;
     const ImuSummary summary = integrator_.Summarize(
         begin.t, t_[i], CalibrationOf(solution_.layout, begin));
-    const NodeInterval interval = {timeline_, k, summary};
+    const NodeInterval interval = {timeline_, k, summary, solution_.forward};
     end = Advance(solution_.layout, interval, begin);
     LinearizeAdvance(solution_.layout, interval, begin, end, &transition_);
     step(transition_, summary.dt());

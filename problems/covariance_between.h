@@ -30,8 +30,10 @@ class CovarianceBetween {
   void ForEachStep(std::size_t k, const Step& step);
   /// Of a forward method.
   void Predict(std::size_t k);
-  /// Of a smoother.
+  /// Of a smoother, as if the velocity did not step.
   void Bridge(std::size_t k);
+  /// What steps of the velocity leave open between the nodes.
+  void AddSteps(std::size_t k, double t, ErrorMatrix* P) const;
 
   const Solution& solution_;
   const Timeline& timeline_;

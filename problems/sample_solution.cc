@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "imu/imu_link.h"
 #include "problems/covariance_between.h"
+#include "problems/step_bridge.h"
 #include "timeline/time_update.h"
 
 namespace hindsight {
@@ -71,7 +72,7 @@ class Sampler {
                 Advance(solution_.layout, {timeline_, k, mean}, begin), end);
       for (std::size_t i = 0; i < times.size(); ++i) {
         State& x = out_.states[first + i];
-        x = Retract(solution_.layout, x, Part(k, times[i]) * jump);
+        x = Retract(solution_.layout, x, PartOf(jump, k, times[i]));
         x.t = times[i];
       }
     }
@@ -84,6 +85,24 @@ class Sampler {
   double Part(std::size_t k, double t) const {
     const double begin = solution_.states[k].t;
     return (t - begin) / (solution_.states[k + 1].t - begin);
+  }
+
+  /// What a state at t has of what is missed by the node after k.
+  ErrorVector PartOf(const ErrorVector& jump, std::size_t k, double t) const {
+    ErrorVector part = Part(k, t) * jump;
+    const auto bridge = BridgeOverSteps(timeline_, k, t);
+    const Block* position = solution_.layout.Find(BlockKind::kPosition);
+    const Block* velocity = solution_.layout.Find(BlockKind::kVelocity);
+    if (!bridge || position == nullptr || velocity == nullptr) return part;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int p = position->offset + axis;
+      const int v = velocity->offset + axis;
+      const Eigen::Vector2d both =
+          bridge->gain * Eigen::Vector2d(jump(p), jump(v));
+      part(p) = both.x();
+      part(v) = both.y();
+    }
+    return part;
   }
 
   void Append(const ErrorMatrix& P) { out_.covariances.Set(count_++, P); }

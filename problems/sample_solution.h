@@ -29,7 +29,9 @@ inline constexpr double kPropagationStep = 0.2;
 ///                P = (1 - a) (Phi P_k Phi' + Q) + a Psi P_k+1 Psi':
 ///              exact without noise of the IMU, and with it not less than what
 ///              either node predicts in proportion to its closeness. Of nodes
-///              closer than kPropagationStep it is interpolated.
+///              closer than kPropagationStep it is interpolated. Where the
+///              timeline has steps of the velocity, position and velocity have
+///              the gain and the covariance of StepBridge in their place.
 ///   forward methods (Solution::forward)
 ///              the prediction as it is, P <- Phi P Phi' + Q from the node
 ///              before, of an observer with its prescribed stability

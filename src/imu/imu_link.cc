@@ -232,6 +232,12 @@ ComponentMap MapComponents(const ErrorLayout& layout) {
 
 void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
                          const State& x_i, const State& x_j, Transition* out) {
+  LinearizeTransition(layout, summary, LinkNoise(summary), x_i, x_j, out);
+}
+
+void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
+                         const ImuLink::Matrix15& S, const State& x_i,
+                         const State& x_j, Transition* out) {
   ImuLink link;
   EvaluateLink(layout, summary, x_i, x_j, true, &link);
   const Eigen::Matrix<double, 9, 9> inverse = InverseAtEnd(link);
@@ -240,7 +246,7 @@ void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
   Phi.bottomRightCorner<6, 6>() = -link.J_i.bottomRightCorner<6, 6>();
   ImuLink::Vector15 c = -link.residual;
   c.head<9>() = -inverse * link.residual.head<9>();
-  ImuLink::Matrix15 Q = LinkNoise(summary);
+  ImuLink::Matrix15 Q = S;
   Q.topLeftCorner<9, 9>() =
       (inverse * Q.topLeftCorner<9, 9>() * inverse.transpose()).eval();
   Q.topRightCorner<9, 6>() = (inverse * Q.topRightCorner<9, 6>()).eval();

@@ -64,6 +64,10 @@ struct Transition {
 };
 void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
                          const State& x_i, const State& x_j, Transition* out);
+/// The same with another S than LinkNoise of the summary.
+void LinearizeTransition(const ErrorLayout& layout, const ImuSummary& summary,
+                         const ImuLink::Matrix15& S, const State& x_i,
+                         const State& x_j, Transition* out);
 
 }  // namespace hindsight
 

@@ -51,7 +51,9 @@ bool ErrorStates::HasRate() const {
 
 void ErrorStates::Extend(Problem* problem) const {
   ApplyToSensor(&problem->timeline);
-  if (HasError()) AddError(problem);
+  if (!HasError()) return;
+  AddError(problem);
+  AddVelocitySteps(&problem->timeline);
 }
 
 void ErrorStates::AddError(Problem* problem) const {
@@ -148,6 +150,18 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
   timeline->SetSensor(i, sensor);
   timeline->ScaleSensor(receiver_,
                         std::max(kLeastSolved, chosen_.parameters.scale));
+}
+
+void ErrorStates::AddVelocitySteps(Timeline* timeline) const {
+  if (std::ranges::none_of(chosen_.steps, &ErrorStep::velocity_step)) return;
+  const SensorTape tape(tape_, receiver_);
+  for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
+    const ErrorStep& step = chosen_.steps[k];
+    if (!step.velocity_step) continue;
+    const double variance =
+        DynamicsOf(chosen_.parameters, step, 0.0, unseen_[k]).q_vv;
+    timeline->AddVelocityStep(tape.unseen_step(k).StepWithin(variance));
+  }
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,

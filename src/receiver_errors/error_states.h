@@ -22,7 +22,8 @@ class ErrorStates {
               const WeighedHypothesis& chosen);
 
   /// Puts e and r behind all other blocks, as far as the hypothesis has them, with
-  /// their steps; gives the sensor's fixes the sigma and loss as found.
+  /// their steps; gives the timeline the steps of the IMU's velocity, and the sensor's
+  /// fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
 
   /// The first of both alone.
@@ -44,6 +45,7 @@ class ErrorStates {
   bool HasError() const { return kind_ > ErrorRegimes::Kind::kWhite; }
   bool HasRate() const;
   void ApplyToSensor(Timeline* timeline) const;
+  void AddVelocitySteps(Timeline* timeline) const;
   void AddBlock(BlockKind kind, const std::string& name,
                 const std::string& unit, const Eigen::Vector3d& sigma0,
                 ErrorLayout* layout) const;

@@ -22,20 +22,50 @@ std::vector<double> SpacingsOf(const LinearTape& tape, int sensor) {
   return spacings;
 }
 
-/// Fixes coming every `spacing` [s].
-UnseenTime UnseenFor(double length, double spacing) {
+/// From `since` to t [s], fixes coming every `spacing`.
+UnseenTime UnseenBetween(double since, double t, double spacing) {
   constexpr double kMissing = 1.5;
-  return {length, length > kMissing * spacing};
+  const double length = t - since;
+  return {length, length > kMissing * spacing, since};
+}
+
+/// By node: SensorTape::unseen_step.
+std::vector<UnseenTime> UnseenSincePosition(const LinearTape& tape,
+                                            int sensor) {
+  std::vector<UnseenTime> unseen(tape.size());
+  const Block* position = tape.layout().Find(BlockKind::kPosition);
+  if (position == nullptr || position->dim != 3) return unseen;
+  // Directions and velocities over the ground see it too, by the curvature of the Earth.
+  constexpr double kSeen = 1e3;  // [m]
+  const auto sees_position = [&](const TapeMeasurement& z) {
+    const auto H = z.H.middleCols(position->offset, 3);
+    return z.accepted && !z.withheld &&
+           (H.rowwise().squaredNorm().array() * kSeen * kSeen >
+            z.R.diagonal().array())
+               .any();
+  };
+  const double spacing = Median(SpacingsOf(tape, sensor));
+  double last = tape.size() == 0 ? 0.0 : tape.t(0);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const bool has_fix = HasFix(tape, k, sensor);
+    if (has_fix) unseen[k] = UnseenBetween(last, tape.t(k), spacing);
+    if (has_fix || std::ranges::any_of(tape.measurements(k), sees_position)) {
+      last = tape.t(k);
+    }
+  }
+  return unseen;
 }
 
 }  // namespace
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
     : tape_(tape), sensor_(sensor), nodes_(tape.size()) {
-  const std::vector<UnseenTime> unseen = UnseenSinceFix(tape, sensor);
+  const std::vector<UnseenTime> drifts = UnseenSinceFix(tape, sensor);
+  const std::vector<UnseenTime> steps = UnseenSincePosition(tape, sensor);
   for (std::size_t k = 0; k < size(); ++k) {
     nodes_[k].has_fix = hindsight::HasFix(tape, k, sensor);
-    nodes_[k].unseen_drift = unseen[k];
+    nodes_[k].unseen_drift = drifts[k];
+    nodes_[k].unseen_step = steps[k];
     fix_count_ += nodes_[k].has_fix ? 1 : 0;
     if (k == 0) continue;
     // A copy takes no more memory than it needs.
@@ -43,7 +73,6 @@ SensorTape::SensorTape(const LinearTape& tape, int sensor)
     nodes_[k].over_interval = over_interval;
   }
   SetShares();
-  SetUnseenSteps();
   SetNoisy();
 }
 
@@ -60,24 +89,6 @@ void SensorTape::SetShares() {
   const double mean = whole / static_cast<double>(fixes.size() - 1);
   for (std::size_t i = 1; i < fixes.size(); ++i) {
     nodes_[fixes[i]].share = once * (t(fixes[i]) - t(fixes[i - 1])) / mean;
-  }
-}
-
-void SensorTape::SetUnseenSteps() {
-  const Block* position = tape_.layout().Find(BlockKind::kPosition);
-  if (position == nullptr || position->dim != 3) return;
-  const auto sees_position = [&](const TapeMeasurement& z) {
-    return z.accepted && !z.withheld &&
-           !z.H.middleCols(position->offset, 3).isZero(0.0);
-  };
-  const double spacing = Median(SpacingsOf(tape_, sensor_));
-  double last = t(0);
-  for (std::size_t k = 0; k < size(); ++k) {
-    if (HasFix(k)) nodes_[k].unseen_step = UnseenFor(t(k) - last, spacing);
-    if (HasFix(k) ||
-        std::ranges::any_of(tape_.measurements(k), sees_position)) {
-      last = t(k);
-    }
   }
 }
 
@@ -99,7 +110,7 @@ std::vector<UnseenTime> UnseenSinceFix(const LinearTape& tape, int sensor) {
   std::vector<UnseenTime> unseen;
   double last = tape.size() == 0 ? 0.0 : tape.t(0);
   for (std::size_t k = 0; k < tape.size(); ++k) {
-    unseen.push_back(UnseenFor(tape.t(k) - last, spacing));
+    unseen.push_back(UnseenBetween(last, tape.t(k), spacing));
     if (HasFix(tape, k, sensor)) last = tape.t(k);
   }
   return unseen;

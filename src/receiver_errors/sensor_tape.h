@@ -37,8 +37,8 @@ class SensorTape {
   const UnseenTime& unseen_drift(std::size_t k) const {
     return nodes_[k].unseen_drift;
   }
-  /// Of a velocity step before a fix: the same since the last node that saw the position, or
-  /// had a fix of the sensor.
+  /// Of a velocity step before a fix: the same since the last node that saw the position, to
+  /// a kilometre or better, or had a fix of the sensor.
   const UnseenTime& unseen_step(std::size_t k) const {
     return nodes_[k].unseen_step;
   }
@@ -59,7 +59,6 @@ class SensorTape {
   };
 
   void SetShares();
-  void SetUnseenSteps();
   void SetNoisy();
 
   const LinearTape& tape_;

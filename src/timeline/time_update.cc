@@ -83,6 +83,22 @@ BlockStep StepOf(const NodeInterval& interval, const Block& block,
              : EvolutionStep(block, interval.summary.dt(), distance);
 }
 
+ImuLink::Matrix15 LinkNoise(const NodeInterval& interval) {
+  const ImuSummary& summary = interval.summary;
+  ImuLink::Matrix15 S = LinkNoise(summary);
+  if (!interval.with_velocity_steps) return S;
+  const VelocityStep::Noise noise =
+      interval.timeline.VelocityNoise(summary.t_i, summary.t_j);
+  for (int p = 0; p < 3; ++p) {
+    const int v = 3 + p;
+    S(p, p) += noise.pp;
+    S(p, v) += noise.pv;
+    S(v, p) += noise.pv;
+    S(v, v) += noise.vv;
+  }
+  return S;
+}
+
 State Advance(const ErrorLayout& layout, const NodeInterval& interval,
               const State& x_i) {
   State x_j = Predict(layout, x_i, interval.summary);
@@ -103,7 +119,8 @@ State AdvanceBeside(const State& navigation, const ErrorLayout& layout,
 
 void LinearizeAdvance(const ErrorLayout& layout, const NodeInterval& interval,
                       const State& x_i, const State& x_j, Transition* out) {
-  LinearizeTransition(layout, interval.summary, x_i, x_j, out);
+  LinearizeTransition(layout, interval.summary, LinkNoise(interval), x_i, x_j,
+                      out);
   LinearizeGivenSteps(layout, interval, x_i, x_j, out);
   LinearizeDistances(layout, interval.timeline, interval.k, x_i, x_j, out);
 }

@@ -13,6 +13,7 @@ struct NodeInterval {
   const Timeline& timeline;
   std::size_t k = 0;
   const ImuSummary& summary;
+  bool with_velocity_steps = true;  ///< of the timeline
 };
 
 /// The whole interval after node k, its summary integrated at the calibration
@@ -24,6 +25,10 @@ NodeInterval IntervalAfter(std::size_t k, const ErrorLayout& layout,
 /// timeline says, else by its evolution. `distance`: Travelled in it [m].
 BlockStep StepOf(const NodeInterval& interval, const Block& block,
                  double distance);
+
+/// LinkNoise of the summary, with the steps of the velocity that the timeline has there:
+/// an axis alike, so in whatever axes.
+ImuLink::Matrix15 LinkNoise(const NodeInterval& interval);
 
 /// The one time update: the state at the end of the interval that follows from
 /// x_i at its begin. The navigation state is predicted by the IMU, biases and

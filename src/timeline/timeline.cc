@@ -228,6 +228,17 @@ void Timeline::SetTimeOffsetRates(TimeOffsetRates rates) {
   }
 }
 
+VelocityStep::Noise Timeline::VelocityNoise(double from, double to) const {
+  VelocityStep::Noise sum;
+  for (const VelocityStep& step : velocity_steps_) {
+    const VelocityStep::Noise one = step.Within(from, to);
+    sum.pp += one.pp;
+    sum.pv += one.pv;
+    sum.vv += one.vv;
+  }
+  return sum;
+}
+
 void Timeline::ScaleSensor(int sensor, double factor) {
   for (Measurement& z : measurements_) {
     if (z.sensor == sensor) ScaleSigma(factor, &z);

@@ -11,6 +11,7 @@
 #include "imu/preintegration.h"
 #include "measurements/measurement.h"
 #include "state/block_step.h"
+#include "timeline/velocity_step.h"
 
 namespace hindsight {
 
@@ -109,6 +110,17 @@ class Timeline {
     return block_steps_[k];
   }
 
+  /// Adds a step of the velocity, of which every interval has the noise of its part.
+  void AddVelocityStep(const VelocityStep& step) {
+    velocity_steps_.push_back(step);
+  }
+  const std::vector<VelocityStep>& velocity_steps() const {
+    return velocity_steps_;
+  }
+  /// What these add from one time to another, as it is at the latter
+  /// (VelocityStep::Within).
+  VelocityStep::Noise VelocityNoise(double from, double to) const;
+
   /// Gives a sensor another noise or loss from here on.
   void SetSensor(std::size_t i, const Sensor& sensor) { sensors_[i] = sensor; }
   /// Whether any sensor has a gate.
@@ -155,6 +167,7 @@ class Timeline {
   Summaries summaries_;
   Ahead ahead_;
   std::vector<std::vector<BlockStep>> block_steps_;
+  std::vector<VelocityStep> velocity_steps_;
 };
 
 }  // namespace hindsight

@@ -222,17 +222,23 @@ TEST(ImuFactor, WhitenedJacobianIsTheFiltersTransition) {
   const StateBlocks blocks(problem.layout);
   const ImuSummary& summary =
       timeline.Integrate(1, CalibrationOf(problem.layout, problem.truth[1]));
-  const ImuFactor factor(&blocks, &timeline, 1);
   const std::vector<State> pair = PairAt(problem, 1);
-  const Eigen::MatrixXd J = Point(blocks, factor, pair).TangentJacobian();
-  Transition transition;
-  LinearizeTransition(problem.layout, summary, pair[0], pair[1], &transition);
-  const Eigen::MatrixXd inverse = J.rightCols(15).inverse();
-  const Eigen::MatrixXd Phi = -inverse * J.leftCols(15);
-  EXPECT_LT((Phi - transition.Phi).cwiseAbs().maxCoeff(), 1e-8);
-  EXPECT_LT(
-      testing::ScaledDifference(inverse * inverse.transpose(), transition.Q),
-      1e-8);
+  for (const bool steps : {false, true}) {
+    const double t = timeline.node(1).t;
+    if (steps) timeline.AddVelocityStep({2.0, t - 0.3, t + 0.4});
+    const ImuFactor factor(&blocks, &timeline, 1);
+    const Eigen::MatrixXd J = Point(blocks, factor, pair).TangentJacobian();
+    Transition transition;
+    LinearizeAdvance(problem.layout, {timeline, 1, summary}, pair[0], pair[1],
+                     &transition);
+    const Eigen::MatrixXd inverse = J.rightCols(15).inverse();
+    const Eigen::MatrixXd Phi = -inverse * J.leftCols(15);
+    EXPECT_LT((Phi - transition.Phi).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT(
+        testing::ScaledDifference(inverse * inverse.transpose(), transition.Q),
+        1e-8);
+    EXPECT_EQ(transition.Q(3, 3) > 1.0, steps);
+  }
 }
 
 /// A measurement of each sensor with a covariance that is not diagonal.

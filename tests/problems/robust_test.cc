@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "dataset/timeline_builder.h"
+#include "evaluation/true_states.h"
 #include "io/config/scenario_config.h"
 #include "measurements/noise_kind.h"
 #include "problems/accuracy.h"
@@ -146,6 +147,57 @@ TEST(RobustBatch, FindsPositionsAndVelocitiesThatErrTogether) {
 }
 
 /// Positions whose errors, stated as Gauss-Markov, are 20 m more for 15 s.
+/// The second in which the IMU's velocity steps by 5 m/s leaves it open when.
+void ExpectTheStepBetweenNodes(const Dataset& dataset,
+                               const Reconstruction& reconstruction,
+                               const Solution& solution) {
+  std::vector<double> times;
+  for (int i = 1; i < 10; ++i) times.push_back(50.0 + 0.1 * i);
+  const Solution sampled = reconstruction.Sample(solution, times);
+  const std::vector<State> truth =
+      TrueStates(dataset, sampled.layout, sampled.states);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const ErrorVector e = Local(sampled.layout, sampled.states[i], truth[i]);
+    const ErrorMatrix P = sampled.covariances.Get(i);
+    for (int row = 0; row < 6; ++row) {
+      EXPECT_LT(std::abs(e(row)), 4.0 * std::sqrt(P(row, row)))
+          << times[i] << " " << row;
+    }
+    EXPECT_LT(std::sqrt(P(0, 0)), 1.0) << times[i];
+    EXPECT_LT(std::sqrt(P(3, 3)), 3.0) << times[i];
+  }
+}
+
+/// As where samples are lost, or beyond the range: what all others contradict is the
+/// IMU's, and within that interval the batch does not believe it.
+TEST(RobustBatch, FindsAnImuWhoseVelocitySteps) {
+  constexpr double kStep = 50.38;
+  for (const char* scenario : {"test_drone", "short_drive"}) {
+    const Dataset clean = Simulate(
+        FindScenario(scenario, {"truth_rate=10 Hz", "duration=80 s"}), 11);
+    const Accuracy without = Judge(clean, SolveBy("batch", clean));
+    Dataset dirty = clean;
+    PagedVector<ImuSample>& samples = dirty.imu.samples;
+    const std::size_t at = static_cast<std::size_t>(
+        std::ranges::upper_bound(samples, kStep, {}, &ImuSample::t) -
+        samples.begin());
+    const double dt = dirty.imu.kind == ImuStream::Kind::kIncrements
+                          ? 1.0
+                          : samples[at].t - samples[at - 1].t;
+    samples[at].accel += Eigen::Vector3d(-3.0, 4.0, 0.0) / dt;
+    EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+              2.0 * without.horizontal_rms);
+    ReconstructionOptions options;
+    options.method = "robust_batch";
+    Reconstruction reconstruction(dirty, options);
+    const Solution solution = reconstruction.Run(options.method);
+    const Accuracy robust = Judge(dirty, solution);
+    EXPECT_LT(robust.horizontal_rms, 1.2 * without.horizontal_rms) << scenario;
+    EXPECT_LT(robust.position_nees, 5.0) << scenario;
+    ExpectTheStepBetweenNodes(dirty, reconstruction, solution);
+  }
+}
+
 TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {
   Dataset clean = Simulate(FindScenario("test_drone"), 4);
   for (AidingStream& stream : clean.streams) {

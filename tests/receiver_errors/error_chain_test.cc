@@ -275,6 +275,24 @@ TEST(ErrorChain, OtherPositionsEndTheReachOfAStep) {
               p.rate_sigma * p.rate_sigma * dt * dt, 1e-9);
 }
 
+/// Velocities see the position by the curvature of the Earth alone.
+TEST(SensorTape, VelocitiesDoNotEndTheTimeOfAStepOfPositions) {
+  const TestProblem problem = WithVelocities(40.0);
+  GateDecisions used;
+  for (const Measurement& z : problem.measurements) {
+    used.push_back(z.sensor == 1 || z.t < 14.5 || z.t > 24.5);
+  }
+  const LinearTape tape = TapeOf(problem, used);
+  constexpr std::size_t kNode = 25;
+  const Block* position = tape.layout().Find(BlockKind::kPosition);
+  EXPECT_FALSE(tape.measurements(kNode - 1)[1]
+                   .H.middleCols(position->offset, 3)
+                   .isZero(0.0));
+  const UnseenTime unseen = SensorTape(tape, 0).unseen_step(kNode);
+  EXPECT_EQ(unseen.since, 14.0);
+  EXPECT_EQ(unseen.length, 11.0);
+}
+
 /// What a velocity was at its last fix is known, however long ago the position was.
 TEST(ErrorChain, VelocitiesEndTheReachOfAStep) {
   const TestProblem problem = WithVelocities(40.0);

@@ -847,6 +847,15 @@ TEST(ReceiverErrors, AreNoneBesideAStepOfTheImuBetweenTwoFixes) {
     EXPECT_THAT(one.InWords(),
                 AllOf(HasSubstr("the IMU's velocity steps at 36 s"),
                       Not(HasSubstr("biased")), Not(HasSubstr("drifting"))));
+    ASSERT_TRUE(one.Stands());
+    Problem extended = problem;
+    one.Extend(&extended);
+    const std::vector<VelocityStep>& steps = extended.timeline.velocity_steps();
+    ASSERT_EQ(steps.size(), 1);
+    EXPECT_EQ(steps[0].begin, 35.0);
+    EXPECT_EQ(steps[0].end, 36.0);
+    EXPECT_GT(steps[0].variance, 1.0);
+    EXPECT_LT(steps[0].variance, 100.0);
   }
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 #include "support/test_problem.h"
 
 namespace hindsight {
@@ -114,6 +118,70 @@ TEST(TimeUpdate, OfTwoPartsIsThatOfTheWhole) {
       EXPECT_NEAR(Q(i, i), ab.Q(i, i), 1e-6) << k;
     }
   }
+}
+
+Eigen::Matrix2d AsMatrix(const VelocityStep::Noise& noise) {
+  return Eigen::Matrix2d({{noise.pp, noise.pv}, {noise.pv, noise.vv}});
+}
+
+/// By whatever times the interval from 10 to 14 s is cut.
+TEST(VelocityStep, PartsMakeUpTheWhole) {
+  constexpr double kBegin = 10.0;
+  constexpr double kEnd = 14.0;
+  constexpr double kBefore = -std::numeric_limits<double>::infinity();
+  for (const auto& [begin, end] : {std::pair{10.0, 14.0},
+                                   {11.0, 12.0},
+                                   {10.0, 10.0},
+                                   {12.5, 12.5},
+                                   {6.0, 11.0},
+                                   {6.0, 7.0}}) {
+    const VelocityStep step = {.variance = 9.0, .begin = begin, .end = end};
+    const Eigen::Matrix2d whole = AsMatrix(step.Within(kBefore, kEnd));
+    EXPECT_DOUBLE_EQ(whole(1, 1), 9.0);
+    EXPECT_DOUBLE_EQ(whole(0, 1), 9.0 * (kEnd - (begin + end) / 2.0));
+    for (const double cut : {kBegin + 0.5, 11.0, 12.5, 13.9}) {
+      Eigen::Matrix2d F = Eigen::Matrix2d::Identity();
+      F(0, 1) = kEnd - cut;
+      const Eigen::Matrix2d parts =
+          F * AsMatrix(step.Within(kBefore, cut)) * F.transpose() +
+          AsMatrix(step.Within(cut, kEnd));
+      EXPECT_TRUE(parts.isApprox(whole, 1e-12))
+          << begin << " " << end << " " << cut;
+    }
+  }
+}
+
+TEST(TimeUpdate, AddsTheVelocityStepsOfTheTimeline) {
+  const TestProblem problem = DriftingProblem();
+  Timeline timeline = problem.MakeTimeline();
+  const ErrorLayout& layout = problem.layout;
+  const State x = WithError(problem);
+  const NodeInterval interval = IntervalAfter(0, layout, x, &timeline);
+  const State next = Advance(layout, interval, x);
+  Transition before;
+  LinearizeAdvance(layout, interval, x, next, &before);
+  const double t = timeline.node(0).t;
+  const double dt = interval.summary.dt();
+  // One at its begin, one that may have been before, and one behind it.
+  timeline.AddVelocityStep({4.0, t, t});
+  timeline.AddVelocityStep({18.0, t - dt, t + dt});
+  timeline.AddVelocityStep({25.0, t + dt, t + dt});
+  Transition after;
+  LinearizeAdvance(layout, interval, x, next, &after);
+  EXPECT_EQ(after.Phi, before.Phi);
+  EXPECT_EQ(after.c, before.c);
+  const ErrorMatrix added = after.Q - before.Q;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const int p = layout.Find(BlockKind::kPosition)->offset;
+  const int v = layout.Find(BlockKind::kVelocity)->offset;
+  // But for the curvature of the Earth and its rate, in a second.
+  constexpr double kNearly = 1e-3;
+  EXPECT_TRUE((added.block<3, 3>(p, p).isApprox((4.0 + 9.0 / 3.0) * dt * dt * I,
+                                                kNearly)));
+  EXPECT_TRUE(
+      (added.block<3, 3>(p, v).isApprox((4.0 + 9.0 / 2.0) * dt * I, kNearly)));
+  EXPECT_TRUE((added.block<3, 3>(v, v).isApprox(13.0 * I, kNearly)));
+  EXPECT_LT(added.bottomRows(layout.dim() - 6).norm(), 1e-12);
 }
 
 /// Models about one nominal differ in what they believe of the parameters.
