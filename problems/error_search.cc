@@ -140,10 +140,35 @@ void ErrorSearch::Take(Round round) {
   const ReceiverErrors& best = round.best();
   if (best.Stands()) {
     best.Extend(&problem_);
+    for (const VelocityStep& step : CommonSteps(round)) {
+      problem_.timeline.AddVelocityStep(step);
+    }
     states_ = best.States(problem_.layout);
     question_.known.push_back(best.sensor());
   }
   rounds_.push_back(std::move(round));
+}
+
+std::vector<VelocityStep> ErrorSearch::CommonSteps(const Round& round) const {
+  std::vector<VelocityStep> common = round.best().VelocitySteps();
+  if (common.empty()) return common;
+  bool of_position = false;
+  for (const ReceiverErrors& one : round.errors) {
+    if (!one.Stands()) continue;
+    of_position |= KindOf(one).is_position;
+    const std::vector<VelocityStep> own = one.VelocitySteps();
+    std::erase_if(common, [&own](const VelocityStep& step) {
+      return std::ranges::none_of(own, [&step](const VelocityStep& other) {
+        return other.begin <= step.end && other.end >= step.begin;
+      });
+    });
+  }
+  const auto goes_on = [](const VelocityStep& a, const VelocityStep& b) {
+    return b.begin <= a.end;
+  };
+  const bool jumps =
+      std::ranges::adjacent_find(common, goes_on) != common.end();
+  return of_position && !jumps ? common : std::vector<VelocityStep>();
 }
 
 bool ErrorSearch::HasNext() const {

@@ -144,6 +144,12 @@ class ErrorSearch {
   bool LacksOthers(const Round& round) const;
   /// Extends the problem by what stands of a round.
   void Take(Round round);
+  /// Steps of the IMU's velocity that the best of a round tells, and all others of it of
+  /// which errors stand, at the same time, a sensor of positions among them: it is one
+  /// IMU. Where one of them errs itself at that time it is that error which the others
+  /// take for such a step. None where two come one after the other: that is a jump of the
+  /// position, by which receivers err, and no IMU.
+  std::vector<VelocityStep> CommonSteps(const Round& round) const;
   /// Whether there is another round: as decided, or to be searched.
   bool HasNext() const;
   /// Whether a state can hold the errors of one more sensor.
@@ -161,6 +167,9 @@ class ErrorSearch {
                         RobustBatchResult* result);
   /// The least factor on the noise of the IMU beside any errors that stand, or 1.
   double LeastImuScale() const;
+  /// Steps of the IMU's velocity that the batch has: nothing tells them from sensors that
+  /// err alike.
+  void TellVelocitySteps(RobustBatchResult* result) const;
   /// Errors that sensors may have which were left their noise.
   void TellUndecided(RobustBatchResult* result) const;
   /// What it is worth that another sensor errs in place of the likeliest.

@@ -74,6 +74,7 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
     result->trust[static_cast<std::size_t>(best.sensor())] = best.Trust();
     TellRivals(rounds_[i], worth, result);
   }
+  TellVelocitySteps(result);
   TellUndecided(result);
   if (unbelieved_.empty()) return;
   result->notes.push_back(unbelieved_);
@@ -81,6 +82,25 @@ void ErrorSearch::Tell(RobustBatchResult* result) const {
 
 void ErrorSearch::Disbelieve(const std::string& words, const std::string& why) {
   unbelieved_ = words + ": not believed, as " + why;
+}
+
+void ErrorSearch::TellVelocitySteps(RobustBatchResult* result) const {
+  const std::vector<VelocityStep>& steps = problem_.timeline.velocity_steps();
+  if (steps.empty()) return;
+  std::string when;
+  for (const VelocityStep& step : steps) {
+    when += fmt::format("{}{:.1f} to {:.1f} s", when.empty() ? "" : ", ",
+                        step.begin, step.end);
+  }
+  result->doubts.push_back(
+      {.grade = Grade::kDoubtful,
+       .what = "the velocity of the IMU steps (" + when +
+               "), or all that contradicts it errs alike from there on",
+       .value = static_cast<double>(steps.size()),
+       .unit = "1",
+       .causes = {"samples that are lost, or beyond the range of the IMU",
+                  "receivers that drift"},
+       .remedies = {"another sensor of positions or velocities"}});
 }
 
 void ErrorSearch::TellUndecided(RobustBatchResult* result) const {

@@ -51,9 +51,7 @@ bool ErrorStates::HasRate() const {
 
 void ErrorStates::Extend(Problem* problem) const {
   ApplyToSensor(&problem->timeline);
-  if (!HasError()) return;
-  AddError(problem);
-  AddVelocitySteps(&problem->timeline);
+  if (HasError()) AddError(problem);
 }
 
 void ErrorStates::AddError(Problem* problem) const {
@@ -152,16 +150,20 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
                         std::max(kLeastSolved, chosen_.parameters.scale));
 }
 
-void ErrorStates::AddVelocitySteps(Timeline* timeline) const {
-  if (std::ranges::none_of(chosen_.steps, &ErrorStep::velocity_step)) return;
+std::vector<VelocityStep> ErrorStates::VelocitySteps() const {
+  std::vector<VelocityStep> steps;
+  if (std::ranges::none_of(chosen_.steps, &ErrorStep::velocity_step)) {
+    return steps;
+  }
   const SensorTape tape(tape_, receiver_);
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
     const ErrorStep& step = chosen_.steps[k];
     if (!step.velocity_step) continue;
     const double variance =
         DynamicsOf(chosen_.parameters, step, 0.0, unseen_[k]).q_vv;
-    timeline->AddVelocityStep(tape.unseen_step(k).StepWithin(variance));
+    steps.push_back(tape.unseen_step(k).StepWithin(variance));
   }
+  return steps;
 }
 
 void ErrorStates::AddBlock(BlockKind kind, const std::string& name,

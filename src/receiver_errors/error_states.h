@@ -22,8 +22,7 @@ class ErrorStates {
               const WeighedHypothesis& chosen);
 
   /// Puts e and r behind all other blocks, as far as the hypothesis has them, with
-  /// their steps; gives the timeline the steps of the IMU's velocity, and the sensor's
-  /// fixes the sigma and loss as found.
+  /// their steps; gives the sensor's fixes the sigma and loss as found.
   void Extend(Problem* problem) const;
 
   /// The first of both alone.
@@ -32,6 +31,9 @@ class ErrorStates {
   /// In a problem that was extended so, gives e the sigmas and the correlation time of
   /// `other`.
   void Replace(const ErrorParameters& other, Problem* problem) const;
+
+  /// The steps of the IMU's velocity, each at any time at which nothing would have seen it.
+  std::vector<VelocityStep> VelocitySteps() const;
 
   /// The smoothed trajectory of the hypothesis, over the extended layout.
   std::vector<State> States(const ErrorLayout& layout) const;
@@ -45,7 +47,6 @@ class ErrorStates {
   bool HasError() const { return kind_ > ErrorRegimes::Kind::kWhite; }
   bool HasRate() const;
   void ApplyToSensor(Timeline* timeline) const;
-  void AddVelocitySteps(Timeline* timeline) const;
   void AddBlock(BlockKind kind, const std::string& name,
                 const std::string& unit, const Eigen::Vector3d& sigma0,
                 ErrorLayout* layout) const;

@@ -220,6 +220,11 @@ bool ReceiverErrors::HasVelocitySteps() const {
          std::ranges::any_of(found_->chosen().steps, &ErrorStep::velocity_step);
 }
 
+std::vector<VelocityStep> ReceiverErrors::VelocitySteps() const {
+  if (!HasVelocitySteps()) return {};
+  return found_->states().VelocitySteps();
+}
+
 std::vector<double> ReceiverErrors::ChangeTimes() const {
   std::vector<double> times;
   if (!found_->switching()) return times;

@@ -100,10 +100,7 @@ class ReceiverErrors {
   /// as loss; behind all other
   /// blocks of the layout the sensor's error e [SI, along its rows] and, if it
   /// drifts, its rate, which go from node to node as the chosen hypothesis says
-  /// (Timeline::SetBlockSteps); to the timeline the steps of the IMU's velocity, each
-  /// at any time at which nothing would have seen it, whatever its onset: by that of the
-  /// search, which is linear about a trajectory that has the step as something else, the
-  /// states between nodes would be told too well. White errors bring neither.
+  /// (Timeline::SetBlockSteps). White errors bring no blocks.
   void Extend(Problem* problem) const;
 
   /// Gives a problem that was extended by it a Gauss-Markov error so large and slow as
@@ -183,6 +180,10 @@ class ReceiverErrors {
   double LogOfPrior() const;
   /// Whether the velocity of the IMU steps in the chosen hypothesis.
   bool HasVelocitySteps() const;
+  /// These, each at any time at which nothing would have seen it, whatever its onset: by
+  /// that of the search, which is linear about a trajectory that has the step as something
+  /// else, states between nodes would be told too well.
+  std::vector<VelocityStep> VelocitySteps() const;
   /// Times of the nodes at which the sensor's errors begin, end or change in the
   /// chosen hypothesis.
   std::vector<double> ChangeTimes() const;

@@ -17,19 +17,6 @@ namespace {
 
 using Kind = ErrorRegimes::Kind;
 
-/// Name of a parameter at a bound; "" if there is none.
-std::string AtBound(const Hypothesis& best, bool is_tolerance) {
-  constexpr double kTouching = 1e-6;  // of the bound
-  for (const BoundedValue& v :
-       BoundedParameters(best.sequence, best.parameters, is_tolerance)) {
-    if (v.value <= v.least * (1.0 + kTouching) ||
-        v.value >= v.most * (1.0 - kTouching)) {
-      return v.name;
-    }
-  }
-  return "";
-}
-
 std::string AsStatedTimes(const ErrorParameters& p) {
   return fmt::format(
       "take the fixes for {:.2g}, the noise of the IMU for {:.2g} times as "
@@ -175,6 +162,18 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 }
 
 }  // namespace
+
+std::string AtBound(const Hypothesis& best, bool is_tolerance) {
+  constexpr double kTouching = 1e-6;  // of the bound
+  for (const BoundedValue& v :
+       BoundedParameters(best.sequence, best.parameters, is_tolerance)) {
+    if (v.value <= v.least * (1.0 + kTouching) ||
+        v.value >= v.most * (1.0 - kTouching)) {
+      return v.name;
+    }
+  }
+  return "";
+}
 
 std::optional<OpenBias> LeftOpen(const SlightBias& slight, double log_gain) {
   const OpenBias open = {slight.expected,

@@ -64,6 +64,9 @@ struct RegimeChoice {
   std::optional<OpenBias> open;
 };
 
+/// Name of a parameter at a bound of its search (BoundedParameters); "" if there is none.
+std::string AtBound(const Hypothesis& best, bool is_tolerance);
+
 /// The one of the largest evidence that stands: it
 ///   - wins by kLeastGain, or kLeastGainOfSwitching, over every simpler one;
 ///   - has no parameter at a bound of its search;

@@ -121,14 +121,14 @@ SensorFindings::SensorFindings(const Problem& problem, const LinearTape& linear,
     regimes = WithAlternatives(std::move(all), choice.chosen);
   }
   // Averages may be likelier with what all measurements are not.
-  if (stands() && !Wins(tapes.Whole(), regime.has_clock)) {
-    Refuse(tapes.Whole());
-    ChooseNoise(fixes, &rest);
-  }
-  if (stands() && !Wins(tapes.Whole(), regime.has_clock)) {
-    Refuse(tapes.Whole());
-    Withdraw();
-  }
+  const auto refuse = [&] {
+    if (!stands()) return false;
+    const std::string why = ObjectionOn(tapes.Whole(), regime.has_clock);
+    if (!why.empty()) Refuse(tapes.Whole(), why);
+    return !why.empty();
+  };
+  if (refuse()) ChooseNoise(fixes, &rest);
+  if (refuse()) Withdraw();
   stopped |= rest.stopped();
   if (!stands()) return;
   gain = GainOn(tapes.Whole());
@@ -151,17 +151,22 @@ double SensorFindings::GainOn(const SensorTape& whole) const {
              .log_likelihood;
 }
 
-bool SensorFindings::Wins(const SensorTape& whole, bool has_clock) const {
+std::string SensorFindings::ObjectionOn(const SensorTape& whole,
+                                        bool has_clock) const {
+  const std::string bound = AtBound(regimes.hypotheses.front(), is_tolerance);
+  if (!bound.empty()) return "have " + bound + " at its bound";
   const double least =
       switching() && !has_clock ? kLeastGainOfSwitching : kLeastGain;
-  return GainOn(whole) >= least;
+  const double gain_on = GainOn(whole);
+  if (gain_on >= least) return "";
+  return fmt::format("win by {:.2g} over errors as stated [ln of the evidence]",
+                     gain_on);
 }
 
-void SensorFindings::Refuse(const SensorTape& whole) {
-  choice.refused.push_back(fmt::format(
-      "{} errors do not stand: on all measurements they win by {:.2g} over "
-      "errors as stated [ln of the evidence]",
-      RegimeName(regimes.kind), GainOn(whole)));
+void SensorFindings::Refuse(const SensorTape& whole, const std::string& why) {
+  choice.refused.push_back(
+      fmt::format("{} errors do not stand: on all measurements they {}",
+                  RegimeName(regimes.kind), why));
   if (regimes.slight) open = LeftOpen(*regimes.slight, GainOn(whole));
 }
 

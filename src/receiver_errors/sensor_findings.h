@@ -93,10 +93,11 @@ struct SensorFindings : ErrorDecisions {
 
   /// ErrorDecisions::gain of what stands; of all these `whole` is of `tape`.
   double GainOn(const SensorTape& whole) const;
-  /// Whether that is what RegimeChoice asks of it.
-  bool Wins(const SensorTape& whole, bool has_clock) const;
-  /// Says in RegimeChoice::refused that it is not; a bias throughout stays open.
-  void Refuse(const SensorTape& whole);
+  /// What speaks against it on all measurements: a parameter at a bound of its search, or a
+  /// gain of less than RegimeChoice asks; "" if nothing does.
+  std::string ObjectionOn(const SensorTape& whole, bool has_clock) const;
+  /// Says in RegimeChoice::refused why it is not; a bias throughout stays open.
+  void Refuse(const SensorTape& whole, const std::string& why);
 
   /// Takes back what stands, but not what was refused.
   void Withdraw();

@@ -194,8 +194,37 @@ TEST(RobustBatch, FindsAnImuWhoseVelocitySteps) {
     const Accuracy robust = Judge(dirty, solution);
     EXPECT_LT(robust.horizontal_rms, 1.2 * without.horizontal_rms) << scenario;
     EXPECT_LT(robust.position_nees, 5.0) << scenario;
+    // Receivers that drift alike from there on look the same.
+    EXPECT_FALSE(solution.usable()) << scenario;
     ExpectTheStepBetweenNodes(dirty, reconstruction, solution);
   }
+}
+
+/// To heights a lone receiver that drifts to the end is an IMU whose velocity steps: that
+/// it is the receiver only its own search tells.
+TEST(RobustBatch, TakesADriftForNoStepOfTheImu) {
+  const Dataset clean =
+      Simulate(FindScenario("gps_jumps", {"duration=90 s"}), 2101);
+  Dataset dirty = clean;
+  for (AidingStream& stream : dirty.streams) {
+    auto& measurements = stream.measurements.Edited();
+    std::erase_if(measurements, [](const Measurement& z) {
+      return std::holds_alternative<PositionFix>(z.model) && z.t > 30.0 &&
+             z.t < 36.4;
+    });
+    for (Measurement& z : measurements) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.t < 36.4) continue;
+      fix->p_e +=
+          NedAxes(fix->p_e) * ((z.t - 35.4) * Eigen::Vector3d(3.6, 3.6, 0.0));
+    }
+  }
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms, 100.0);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  const Accuracy robust = Judge(dirty, solution);
+  EXPECT_LT(robust.horizontal_rms, 10.0);
+  EXPECT_LT(robust.position_nees, 10.0);
+  EXPECT_FALSE(solution.usable());
 }
 
 TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {

@@ -739,7 +739,9 @@ TEST(ReceiverErrors, ThatAreRefusedOnAllFixesStayOpen) {
   SensorFindings found(decisions, tape);
   const double gain = found.GainOn(whole);
   ASSERT_LT(std::abs(gain), 4.0);
-  found.Refuse(whole);
+  const std::string why = found.ObjectionOn(whole, false);
+  EXPECT_THAT(why, HasSubstr("over errors as stated"));
+  found.Refuse(whole, why);
   ASSERT_TRUE(found.open.has_value());
   EXPECT_NEAR(found.open->Probability(),
               1.0 / (1.0 + 3.0 * std::exp(-gain - 0.5)), 1e-12);
@@ -757,6 +759,20 @@ TestProblem WithFastDrift() {
                Eigen::Vector3d(2.0 * (z.t - 20.0), -3.0 * (z.t - 20.0), 0.0);
   }
   return test;
+}
+
+/// What was within its bounds on averages may end at one on all fixes.
+TEST(ReceiverErrors, AtABoundOnAllFixesDoNotStand) {
+  const TestProblem test = WithFastDrift();
+  Problem problem = test.Pose(GateDecisions(test.measurements.size(), 1));
+  const LinearTape tape = RunLinearizedFilter(test.truth, &problem);
+  const SensorTape whole(tape, 0);
+  SensorFindings found(problem, tape, 0, {});
+  ASSERT_TRUE(found.stands());
+  EXPECT_EQ(found.ObjectionOn(whole, false), "");
+  found.regimes.hypotheses.front().parameters.outlier_share = 0.4;
+  EXPECT_EQ(found.ObjectionOn(whole, false),
+            "have the share of outliers at its bound");
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
@@ -848,9 +864,7 @@ TEST(ReceiverErrors, AreNoneBesideAStepOfTheImuBetweenTwoFixes) {
                 AllOf(HasSubstr("the IMU's velocity steps at 36 s"),
                       Not(HasSubstr("biased")), Not(HasSubstr("drifting"))));
     ASSERT_TRUE(one.Stands());
-    Problem extended = problem;
-    one.Extend(&extended);
-    const std::vector<VelocityStep>& steps = extended.timeline.velocity_steps();
+    const std::vector<VelocityStep> steps = one.VelocitySteps();
     ASSERT_EQ(steps.size(), 1);
     EXPECT_EQ(steps[0].begin, 35.0);
     EXPECT_EQ(steps[0].end, 36.0);
