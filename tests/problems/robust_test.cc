@@ -207,12 +207,11 @@ TEST(RobustBatch, TakesADriftForNoStepOfTheImu) {
       Simulate(FindScenario("gps_jumps", {"duration=90 s"}), 2101);
   Dataset dirty = clean;
   for (AidingStream& stream : dirty.streams) {
-    auto& measurements = stream.measurements.Edited();
-    std::erase_if(measurements, [](const Measurement& z) {
+    stream.measurements.EraseIf([](const Measurement& z) {
       return std::holds_alternative<PositionFix>(z.model) && z.t > 30.0 &&
              z.t < 36.4;
     });
-    for (Measurement& z : measurements) {
+    for (Measurement& z : stream.measurements.Edited()) {
       auto* fix = std::get_if<PositionFix>(&z.model);
       if (fix == nullptr || z.t < 36.4) continue;
       fix->p_e +=
