@@ -203,8 +203,8 @@ TEST(RobustBatch, FindsAnImuWhoseVelocitySteps) {
 /// To heights a lone receiver that drifts to the end is an IMU whose velocity steps: that
 /// it is the receiver only its own search tells.
 TEST(RobustBatch, TakesADriftForNoStepOfTheImu) {
-  const Dataset clean =
-      Simulate(FindScenario("gps_jumps", {"duration=90 s"}), 2101);
+  const Dataset clean = Simulate(
+      FindScenario("gps_jumps", {"errors=none", "duration=90 s"}), 2101);
   Dataset dirty = clean;
   for (AidingStream& stream : dirty.streams) {
     stream.measurements.EraseIf([](const Measurement& z) {
