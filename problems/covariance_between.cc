@@ -104,14 +104,12 @@ ErrorMatrix CovarianceBetween::At(std::size_t k, double t) {
 
 void CovarianceBetween::AddSteps(std::size_t k, double t,
                                  ErrorMatrix* P) const {
-  const auto bridge = BridgeOverSteps(timeline_, k, t);
-  const Block* position = solution_.layout.Find(BlockKind::kPosition);
-  const Block* velocity = solution_.layout.Find(BlockKind::kVelocity);
-  if (!bridge || position == nullptr || velocity == nullptr) return;
+  const auto bridge = BridgeOverSteps(solution_.layout, timeline_, k, t);
+  if (!bridge) return;
   const Eigen::Matrix2d& C = bridge->covariance;
   for (int axis = 0; axis < 3; ++axis) {
-    const int p = position->offset + axis;
-    const int v = velocity->offset + axis;
+    const int p = bridge->position + axis;
+    const int v = bridge->velocity + axis;
     (*P)(p, p) += C(0, 0);
     (*P)(p, v) += C(0, 1);
     (*P)(v, p) += C(1, 0);

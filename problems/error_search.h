@@ -85,7 +85,7 @@ class ErrorSearch {
 
   /// ln of the prior of what stands.
   double LogOfPrior() const;
-  /// ln of the evidence without steps of the IMU's velocity and with its noise as
+  /// ln of the evidence with no steps of the IMU's velocity but CommonSteps and its noise as
   /// stated, as the batch is solved: the likelihood of the innovations about the
   /// trajectory that was found, fixes that a mixture takes for outliers with the
   /// noise that it gives them, and the priors of what was found. Only differences

@@ -90,13 +90,11 @@ class Sampler {
   /// What a state at t has of what is missed by the node after k.
   ErrorVector PartOf(const ErrorVector& jump, std::size_t k, double t) const {
     ErrorVector part = Part(k, t) * jump;
-    const auto bridge = BridgeOverSteps(timeline_, k, t);
-    const Block* position = solution_.layout.Find(BlockKind::kPosition);
-    const Block* velocity = solution_.layout.Find(BlockKind::kVelocity);
-    if (!bridge || position == nullptr || velocity == nullptr) return part;
+    const auto bridge = BridgeOverSteps(solution_.layout, timeline_, k, t);
+    if (!bridge) return part;
     for (int axis = 0; axis < 3; ++axis) {
-      const int p = position->offset + axis;
-      const int v = velocity->offset + axis;
+      const int p = bridge->position + axis;
+      const int v = bridge->velocity + axis;
       const Eigen::Vector2d both =
           bridge->gain * Eigen::Vector2d(jump(p), jump(v));
       part(p) = both.x();

@@ -17,9 +17,16 @@ Eigen::Matrix2d NoiseBetween(const Timeline& timeline, double from, double to) {
 
 }  // namespace
 
-std::optional<StepBridge> BridgeOverSteps(const Timeline& timeline,
+std::optional<StepBridge> BridgeOverSteps(const ErrorLayout& layout,
+                                          const Timeline& timeline,
                                           std::size_t k, double t) {
   if (timeline.velocity_steps().empty()) return std::nullopt;
+  const Block* position = layout.Find(BlockKind::kPosition);
+  const Block* velocity = layout.Find(BlockKind::kVelocity);
+  if (position == nullptr || position->dim != 3 || velocity == nullptr ||
+      velocity->dim != 3) {
+    return std::nullopt;
+  }
   const double begin = timeline.node(k).t;
   const double end = timeline.node(k + 1).t;
   Eigen::Matrix2d S = NoiseBetween(timeline, begin, end);
@@ -29,7 +36,8 @@ std::optional<StepBridge> BridgeOverSteps(const Timeline& timeline,
   const Eigen::Matrix2d S_t = NoiseBetween(timeline, begin, t);
   const Eigen::Matrix2d F({{1.0, end - t}, {0.0, 1.0}});
   const Eigen::Matrix2d gain = S_t * F.transpose() * S.inverse();
-  return StepBridge{gain, S_t - gain * F * S_t};
+  return StepBridge{gain, S_t - gain * F * S_t, position->offset,
+                    velocity->offset};
 }
 
 }  // namespace hindsight

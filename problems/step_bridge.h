@@ -16,10 +16,14 @@ namespace hindsight {
 struct StepBridge {
   Eigen::Matrix2d gain;
   Eigen::Matrix2d covariance;
+  int position;  ///< of the layout, its first component
+  int velocity;  ///< the same
 };
 
-/// Between node k and the next, t [s]; none where the timeline has no steps there.
-std::optional<StepBridge> BridgeOverSteps(const Timeline& timeline,
+/// Between node k and the next, t [s]; none where the timeline has no steps there, or the
+/// layout lacks an axis of the position or the velocity.
+std::optional<StepBridge> BridgeOverSteps(const ErrorLayout& layout,
+                                          const Timeline& timeline,
                                           std::size_t k, double t);
 
 }  // namespace hindsight

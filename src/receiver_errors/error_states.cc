@@ -155,13 +155,13 @@ std::vector<VelocityStep> ErrorStates::VelocitySteps() const {
   if (std::ranges::none_of(chosen_.steps, &ErrorStep::velocity_step)) {
     return steps;
   }
-  const SensorTape tape(tape_, receiver_);
+  const std::vector<UnseenTime> unseen = UnseenSincePosition(tape_, receiver_);
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
     const ErrorStep& step = chosen_.steps[k];
-    if (!step.velocity_step) continue;
+    if (!step.velocity_step || unseen[k].length == 0.0) continue;
     const double variance =
         DynamicsOf(chosen_.parameters, step, 0.0, unseen_[k]).q_vv;
-    steps.push_back(tape.unseen_step(k).StepWithin(variance));
+    steps.push_back(unseen[k].StepWithin(variance));
   }
   return steps;
 }

@@ -29,33 +29,6 @@ UnseenTime UnseenBetween(double since, double t, double spacing) {
   return {length, length > kMissing * spacing, since};
 }
 
-/// By node: SensorTape::unseen_step.
-std::vector<UnseenTime> UnseenSincePosition(const LinearTape& tape,
-                                            int sensor) {
-  std::vector<UnseenTime> unseen(tape.size());
-  const Block* position = tape.layout().Find(BlockKind::kPosition);
-  if (position == nullptr || position->dim != 3) return unseen;
-  // Directions and velocities over the ground see it too, by the curvature of the Earth.
-  constexpr double kSeen = 1e3;  // [m]
-  const auto sees_position = [&](const TapeMeasurement& z) {
-    const auto H = z.H.middleCols(position->offset, 3);
-    return z.accepted && !z.withheld &&
-           (H.rowwise().squaredNorm().array() * kSeen * kSeen >
-            z.R.diagonal().array())
-               .any();
-  };
-  const double spacing = Median(SpacingsOf(tape, sensor));
-  double last = tape.size() == 0 ? 0.0 : tape.t(0);
-  for (std::size_t k = 0; k < tape.size(); ++k) {
-    const bool has_fix = HasFix(tape, k, sensor);
-    if (has_fix) unseen[k] = UnseenBetween(last, tape.t(k), spacing);
-    if (has_fix || std::ranges::any_of(tape.measurements(k), sees_position)) {
-      last = tape.t(k);
-    }
-  }
-  return unseen;
-}
-
 }  // namespace
 
 SensorTape::SensorTape(const LinearTape& tape, int sensor)
@@ -112,6 +85,32 @@ std::vector<UnseenTime> UnseenSinceFix(const LinearTape& tape, int sensor) {
   for (std::size_t k = 0; k < tape.size(); ++k) {
     unseen.push_back(UnseenBetween(last, tape.t(k), spacing));
     if (HasFix(tape, k, sensor)) last = tape.t(k);
+  }
+  return unseen;
+}
+
+std::vector<UnseenTime> UnseenSincePosition(const LinearTape& tape,
+                                            int sensor) {
+  std::vector<UnseenTime> unseen(tape.size());
+  const Block* position = tape.layout().Find(BlockKind::kPosition);
+  if (position == nullptr || position->dim != 3) return unseen;
+  // Directions and velocities over the ground see it too, by the curvature of the Earth.
+  constexpr double kSeen = 1e3;  // [m]
+  const auto sees_position = [&](const TapeMeasurement& z) {
+    const auto H = z.H.middleCols(position->offset, 3);
+    return z.accepted && !z.withheld &&
+           (H.rowwise().squaredNorm().array() * kSeen * kSeen >
+            z.R.diagonal().array())
+               .any();
+  };
+  const double spacing = Median(SpacingsOf(tape, sensor));
+  double last = tape.size() == 0 ? 0.0 : tape.t(0);
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    const bool has_fix = HasFix(tape, k, sensor);
+    if (has_fix) unseen[k] = UnseenBetween(last, tape.t(k), spacing);
+    if (has_fix || std::ranges::any_of(tape.measurements(k), sees_position)) {
+      last = tape.t(k);
+    }
   }
   return unseen;
 }

@@ -72,6 +72,8 @@ class SensorTape {
 bool HasFix(const LinearTape& tape, std::size_t k, int sensor);
 /// By node: SensorTape::unseen_drift.
 std::vector<UnseenTime> UnseenSinceFix(const LinearTape& tape, int sensor);
+/// By node: SensorTape::unseen_step; of length 0 where there is none, as without a fix.
+std::vector<UnseenTime> UnseenSincePosition(const LinearTape& tape, int sensor);
 /// The fixes, counted from 0, before which there are none for longer than
 /// LongestSpacingWithoutGap, in order.
 std::vector<std::size_t> FixesBehindGaps(const SensorTape& tape);
