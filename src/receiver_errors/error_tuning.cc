@@ -45,7 +45,7 @@ double MostOfLogShare(const ModeSequence& sequence,
 
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
                                             const ErrorParameters& found,
-                                            bool is_tolerance) {
+                                            bool any_least_scale) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<BoundedValue> values;
   for (const Tunable& t : TunablesOf(sequence, found)) {
@@ -53,7 +53,7 @@ std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
     const bool any_below =
         t.member == &ErrorParameters::outlier_share ||
         t.member == &ErrorParameters::imu_scale ||
-        (is_tolerance && t.member == &ErrorParameters::scale);
+        (any_least_scale && t.member == &ErrorParameters::scale);
     values.push_back({.name = t.name,
                       .unit = t.unit,
                       .value = found.*t.member,

@@ -68,11 +68,11 @@ double MostOfLogShare(const ModeSequence& sequence,
 
 /// The parameters of a sequence that TuneParameters seeks within bounds which
 /// mean something: a share of outliers may be as small as it likes, and the noise of
-/// the IMU, a bias last for ever, and a stated sigma that is a tolerance have any
-/// factor.
+/// the IMU, a bias last for ever, and a stated sigma have as small a factor as it likes
+/// where that is said: of a tolerance, and on all fixes.
 std::vector<BoundedValue> BoundedParameters(const ModeSequence& sequence,
                                             const ErrorParameters& found,
-                                            bool is_tolerance);
+                                            bool any_least_scale);
 
 }  // namespace hindsight
 

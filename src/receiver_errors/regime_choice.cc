@@ -163,10 +163,10 @@ void AddAlternatives(std::vector<Hypothesis> more, double shift,
 
 }  // namespace
 
-std::string AtBound(const Hypothesis& best, bool is_tolerance) {
+std::string AtBound(const Hypothesis& best, bool any_least_scale) {
   constexpr double kTouching = 1e-6;  // of the bound
   for (const BoundedValue& v :
-       BoundedParameters(best.sequence, best.parameters, is_tolerance)) {
+       BoundedParameters(best.sequence, best.parameters, any_least_scale)) {
     if (v.value <= v.least * (1.0 + kTouching) ||
         v.value >= v.most * (1.0 - kTouching)) {
       return v.name;

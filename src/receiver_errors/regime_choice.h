@@ -64,8 +64,9 @@ struct RegimeChoice {
   std::optional<OpenBias> open;
 };
 
-/// Name of a parameter at a bound of its search (BoundedParameters); "" if there is none.
-std::string AtBound(const Hypothesis& best, bool is_tolerance);
+/// Name of a parameter at a bound of its search; "" if there is none. As of
+/// BoundedParameters.
+std::string AtBound(const Hypothesis& best, bool any_least_scale);
 
 /// The one of the largest evidence that stands: it
 ///   - wins by kLeastGain, or kLeastGainOfSwitching, over every simpler one;

@@ -153,7 +153,7 @@ double SensorFindings::GainOn(const SensorTape& whole) const {
 
 std::string SensorFindings::ObjectionOn(const SensorTape& whole,
                                         bool has_clock) const {
-  const std::string bound = AtBound(regimes.hypotheses.front(), is_tolerance);
+  const std::string bound = AtBound(regimes.hypotheses.front(), true);
   if (!bound.empty()) return "have " + bound + " at its bound";
   const double least =
       switching() && !has_clock ? kLeastGainOfSwitching : kLeastGain;

@@ -94,7 +94,9 @@ struct SensorFindings : ErrorDecisions {
   /// ErrorDecisions::gain of what stands; of all these `whole` is of `tape`.
   double GainOn(const SensorTape& whole) const;
   /// What speaks against it on all measurements: a parameter at a bound of its search, or a
-  /// gain of less than RegimeChoice asks; "" if nothing does.
+  /// gain of less than RegimeChoice asks; "" if nothing does. The least factor on a stated
+  /// sigma is no such bound here: fixes that follow each other faster than their errors
+  /// change scatter by as little as they like.
   std::string ObjectionOn(const SensorTape& whole, bool has_clock) const;
   /// Says in RegimeChoice::refused why it is not; a bias throughout stays open.
   void Refuse(const SensorTape& whole, const std::string& why);

@@ -244,6 +244,59 @@ TEST(RobustBatch, TakesAJumpForNoStepsOfTheImu) {
   EXPECT_LT(Judge(dirty, solution).horizontal_rms, 1.05 * batch.horizontal_rms);
 }
 
+/// A drone with positions alone, of a receiver that errs slowly, by 0.2 m, and scatters by
+/// a hundredth of that, as those that smooth do.
+Dataset DroneWithASlowReceiver(std::uint64_t seed) {
+  constexpr double kSigma = 0.2;  // [m]
+  constexpr double kTau = 20.0;   // [s]
+  Dataset dataset = Simulate(
+      FindScenario("test_drone", {"duration=60 s", "aiding.gnss.rate=10 Hz",
+                                  "aiding.gnss.sigma=0.002 m"}),
+      seed);
+  std::erase_if(dataset.streams, [](const AidingStream& stream) {
+    return !stream.sensor.kind->is_position;
+  });
+  Random random(seed);
+  Eigen::Vector3d e = kSigma * random.NormalVector3();
+  double before = 0.0;
+  for (AidingStream& stream : dataset.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr) continue;
+      const double kept = std::exp(-(z.t - before) / kTau);
+      e = kept * e +
+          kSigma * std::sqrt(1.0 - kept * kept) * random.NormalVector3();
+      before = z.t;
+      fix->p_e += NedAxes(fix->p_e) * e;
+      fix->R_n = kSigma * kSigma * Eigen::Matrix3d::Identity();
+    }
+  }
+  return dataset;
+}
+
+/// On averages they scatter by what is stated.
+TEST(RobustBatch, TakesFixesThatScatterByLessThanATenthOfTheirSigma) {
+  const Dataset clean = DroneWithASlowReceiver(2107);
+  Dataset dirty = clean;
+  for (AidingStream& stream : dirty.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix == nullptr || z.t < 20.0 || z.t >= 28.0) continue;
+      fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(4.0, 4.0, 0.0);
+    }
+  }
+  const double without = Judge(clean, SolveBy("batch", clean)).horizontal_rms;
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
+            3.0 * without);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms, 1.1 * without);
+  EXPECT_TRUE(std::ranges::any_of(solution.notes, [](const std::string& one) {
+    return one.starts_with("gnss: biased from 20 to 28 s by 5.");
+  }));
+  // Whose scatter is at the bound of the search.
+  EXPECT_EQ(solution.grade, Grade::kDoubtful);
+}
+
 /// Positions whose errors, stated as Gauss-Markov, are 20 m more for 15 s.
 TEST(RobustBatch, FindsAJumpBeyondAGaussMarkovError) {
   Dataset clean = Simulate(FindScenario("test_drone"), 4);

@@ -773,6 +773,9 @@ TEST(ReceiverErrors, AtABoundOnAllFixesDoNotStand) {
   found.regimes.hypotheses.front().parameters.outlier_share = 0.4;
   EXPECT_EQ(found.ObjectionOn(whole, false),
             "have the share of outliers at its bound");
+  found.regimes.hypotheses.front().parameters.outlier_share = 0.02;
+  found.regimes.hypotheses.front().parameters.scale = kLeastScale;
+  EXPECT_EQ(found.ObjectionOn(whole, false), "");
 }
 
 TEST(ReceiverErrors, OfAShortRecordingMayGrowFast) {
