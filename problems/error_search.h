@@ -79,6 +79,11 @@ class ErrorSearch {
   /// which errors of the first explain whatever it is.
   std::vector<int> SuspectsBeside() const;
 
+  /// Sensors of positions of which each, the others taken at their word, tells steps of the
+  /// IMU's velocity, the likeliest first; none if there are no two. They may err alike, as
+  /// the outputs of one receiver do, or receivers with one base station.
+  std::vector<int> ReceiversThatMayErrAlike() const;
+
   /// Whether errors of velocities change where those of positions do, as mode
   /// sequences have them.
   bool HasCoincidences() const { return LogOfCoincidences() > 0.0; }

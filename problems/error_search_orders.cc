@@ -140,4 +140,16 @@ std::vector<int> ErrorSearch::SuspectsBeside() const {
   return others;
 }
 
+std::vector<int> ErrorSearch::ReceiversThatMayErrAlike() const {
+  std::vector<int> receivers;
+  if (rounds_.empty()) return receivers;
+  for (const ReceiverErrors& one : rounds_.front().errors) {
+    if (one.Stands() && one.HasVelocitySteps() && KindOf(one).is_position) {
+      receivers.push_back(one.sensor());
+    }
+  }
+  if (receivers.size() < 2) receivers.clear();
+  return receivers;
+}
+
 }  // namespace hindsight

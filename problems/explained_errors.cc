@@ -68,6 +68,15 @@ std::vector<Order> OtherOrders(const std::vector<State>& initial,
            return other->RunFromOne(first, beside, initial);
          }});
   }
+  const std::vector<int> alike = search.ReceiversThatMayErrAlike();
+  if (!alike.empty()) {
+    const std::vector<int> others(alike.begin() + 1, alike.end());
+    orders.push_back(
+        {1.0, false,
+         [&initial, others, first = alike.front()](ErrorSearch* other) {
+           return other->RunFromOne(first, others, initial);
+         }});
+  }
   return orders;
 }
 
