@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::size_t kMostRounds = 3;
 
+/// Whether a step is followed by one that takes most of it back.
+bool IsTakenBack(const ToldVelocityStep& step, const ToldVelocityStep& next) {
+  constexpr double kLeft = 0.5;
+  return next.step.begin <= step.step.end &&
+         (step.size + next.size).norm() <
+             kLeft * std::max(step.size.norm(), next.size.norm());
+}
+
 }  // namespace
 
 ErrorSearch::ErrorSearch(Problem problem, const RobustBatchOptions& options,
@@ -150,25 +158,27 @@ void ErrorSearch::Take(Round round) {
 }
 
 std::vector<VelocityStep> ErrorSearch::CommonSteps(const Round& round) const {
-  std::vector<VelocityStep> common = round.best().VelocitySteps();
-  if (common.empty()) return common;
+  std::vector<ToldVelocityStep> common = round.best().VelocitySteps();
+  if (common.empty()) return {};
   bool of_position = false;
   for (const ReceiverErrors& one : round.errors) {
     if (!one.Stands()) continue;
     of_position |= KindOf(one).is_position;
-    const std::vector<VelocityStep> own = one.VelocitySteps();
-    std::erase_if(common, [&own](const VelocityStep& step) {
-      return std::ranges::none_of(own, [&step](const VelocityStep& other) {
-        return other.begin <= step.end && other.end >= step.begin;
+    const std::vector<ToldVelocityStep> own = one.VelocitySteps();
+    std::erase_if(common, [&own](const ToldVelocityStep& told) {
+      return std::ranges::none_of(own, [&told](const ToldVelocityStep& other) {
+        return other.step.begin <= told.step.end &&
+               other.step.end >= told.step.begin;
       });
     });
   }
-  const auto goes_on = [](const VelocityStep& a, const VelocityStep& b) {
-    return b.begin <= a.end;
-  };
-  const bool jumps =
-      std::ranges::adjacent_find(common, goes_on) != common.end();
-  return of_position && !jumps ? common : std::vector<VelocityStep>();
+  std::vector<VelocityStep> steps;
+  if (!of_position ||
+      std::ranges::adjacent_find(common, IsTakenBack) != common.end()) {
+    return steps;
+  }
+  for (const ToldVelocityStep& told : common) steps.push_back(told.step);
+  return steps;
 }
 
 bool ErrorSearch::HasNext() const {

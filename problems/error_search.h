@@ -79,9 +79,11 @@ class ErrorSearch {
   /// which errors of the first explain whatever it is.
   std::vector<int> SuspectsBeside() const;
 
-  /// Sensors of positions of which each, the others taken at their word, tells steps of the
-  /// IMU's velocity, the likeliest first; none if there are no two. They may err alike, as
-  /// the outputs of one receiver do, or receivers with one base station.
+  /// Two and more sensors of positions that may err alike, as the outputs of one receiver do,
+  /// or receivers with one base station: of which each, the others taken at their word,
+  /// tells steps of the IMU's velocity, the likeliest first; or all, that which tells most
+  /// first, where the innovations of all sensors together say that position or velocity
+  /// jump. Else none.
   std::vector<int> ReceiversThatMayErrAlike() const;
 
   /// Whether errors of velocities change where those of positions do, as mode
@@ -152,7 +154,7 @@ class ErrorSearch {
   /// Steps of the IMU's velocity that the best of a round tells, and all others of it of
   /// which errors stand, at the same time, a sensor of positions among them: it is one
   /// IMU. Where one of them errs itself at that time it is that error which the others
-  /// take for such a step. None where two come one after the other: that is a jump of the
+  /// take for such a step. None where one takes back the one before: that is a jump of the
   /// position, by which receivers err, and no IMU.
   std::vector<VelocityStep> CommonSteps(const Round& round) const;
   /// Whether there is another round: as decided, or to be searched.

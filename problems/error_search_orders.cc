@@ -1,14 +1,72 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "base/chi_square.h"
 #include "evaluation/innovation_test.h"
+#include "filters/mean_shift.h"
 #include "measurements/sensor_kind.h"
 #include "problems/error_search.h"
+#include "problems/explanations.h"
 #include "problems/judged_innovations.h"
 
 namespace hindsight {
+namespace {
+
+/// Sensors of positions, that which tells most of the position first.
+std::vector<int> ReceiversByInformation(const Timeline& timeline,
+                                        const LinearTape& tape) {
+  std::map<int, double> information;  // [1/m^2]
+  for (std::size_t k = 0; k < tape.size(); ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      const auto sensor = static_cast<std::size_t>(z.sensor);
+      if (!z.accepted || z.withheld ||
+          !timeline.sensors()[sensor].kind->is_position) {
+        continue;
+      }
+      information[z.sensor] += z.R.diagonal().cwiseInverse().sum();
+    }
+  }
+  std::vector<int> receivers;
+  for (const auto& [sensor, sum] : information) receivers.push_back(sensor);
+  std::ranges::stable_sort(receivers, std::ranges::greater(),
+                           [&](int sensor) { return information[sensor]; });
+  return receivers;
+}
+
+/// Whether innovations say that position or velocity are others from some time on, as
+/// errors make believe that all sensors have in common: by a test that a right model
+/// fails once in twenty, as another search decides.
+bool TellsAJumpInCommon(const LinearTape& tape) {
+  constexpr double kFalseAlarms = 0.05;
+  const ErrorLayout& layout = tape.layout();
+  const Block* blocks[] = {layout.Find(BlockKind::kPosition),
+                           layout.Find(BlockKind::kVelocity)};
+  const auto is_meant = [&blocks](const MeanShift& shift) {
+    return shift.of_state && std::ranges::any_of(blocks, [&](const Block* one) {
+             return one != nullptr && shift.column >= one->offset &&
+                    shift.column < one->offset + one->dim;
+           });
+  };
+  const ShiftColumns none = {[](std::size_t, const TapeMeasurement&) {
+    return std::vector<ShiftColumns::Columns>();
+  }};
+  const std::vector<std::size_t> onsets = SpreadOnsets(tape, kOnsets);
+  int count = 0;
+  double most = 0.0;  // z
+  for (const MeanShift& shift : ScoreShifts(tape, none, onsets).shifts) {
+    if (!is_meant(shift)) continue;
+    ++count;
+    most = std::max(most, std::abs(shift.z()));
+  }
+  return count > 0 &&
+         most * most > ChiSquareQuantile(1.0 - kFalseAlarms / count, 1.0);
+}
+
+}  // namespace
 
 bool IsOfVelocity(const SensorKind& kind) {
   return kind.moves && !kind.of_vehicle && !kind.is_position;
@@ -141,14 +199,17 @@ std::vector<int> ErrorSearch::SuspectsBeside() const {
 }
 
 std::vector<int> ErrorSearch::ReceiversThatMayErrAlike() const {
+  if (rounds_.empty()) return {};
+  const Round& first = rounds_.front();
   std::vector<int> receivers;
-  if (rounds_.empty()) return receivers;
-  for (const ReceiverErrors& one : rounds_.front().errors) {
+  for (const ReceiverErrors& one : first.errors) {
     if (one.Stands() && one.HasVelocitySteps() && KindOf(one).is_position) {
       receivers.push_back(one.sensor());
     }
   }
-  if (receivers.size() < 2) receivers.clear();
+  if (receivers.size() > 1) return receivers;
+  receivers = ReceiversByInformation(problem_.timeline, *first.tape);
+  if (receivers.size() < 2 || !TellsAJumpInCommon(*first.tape)) return {};
   return receivers;
 }
 

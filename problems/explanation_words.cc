@@ -132,10 +132,15 @@ Words WordsOfShift(const MeanShift& shift, const DeviationColumns& own,
                    const Problem& problem) {
   const double size = shift.size();
   if (shift.of_state) {
+    const Block* position = problem.layout.Find(BlockKind::kPosition);
+    const bool is_place = shift.column >= position->offset &&
+                          shift.column < position->offset + position->dim;
     return {fmt::format("{} jumps by {}",
                         problem.layout.ComponentName(shift.column),
                         Amount(size, UnitOf(problem.layout, shift.column))),
-            "a larger noise of what drives it"};
+            is_place ? "an error that all sensors of places have in common, or "
+                       "samples of the IMU that are lost"
+                     : "a larger noise of what drives it"};
   }
   if (shift.group == DeviationColumns::kAllClocks) {
     return {fmt::format("the clock of the IMU runs {:.2g} s/s {} than all "

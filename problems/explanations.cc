@@ -6,12 +6,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "base/chi_square.h"
 #include "base/parallel.h"
 #include "filters/shift_response.h"
+#include "measurements/sensor_kind.h"
 #include "problems/deviation_columns.h"
 #include "problems/explanation_words.h"
 #include "problems/likely_deviations.h"
@@ -20,27 +22,28 @@ namespace hindsight {
 
 namespace {
 
-/// Epochs about equally far apart in time, the first included.
-std::vector<std::size_t> Onsets(const LinearTape& tape) {
-  std::vector<std::size_t> onsets;
-  const double begin = tape.t(0);
-  const double step = (tape.back().t - begin) / kOnsets;
-  double next = begin;
-  for (std::size_t k = 0; k < tape.size() && onsets.size() < kOnsets; ++k) {
-    if (tape.t(k) < next) continue;
-    onsets.push_back(k);
-    while (next <= tape.t(k) && step > 0.0) next += step;
+/// Whether more than one sensor tells where the vehicle is.
+bool ManyTellPlaces(const Timeline& timeline, const LinearTape& tape) {
+  std::set<int> sensors;
+  for (std::size_t k = 0; k < tape.size() && sensors.size() < 2; ++k) {
+    for (const TapeMeasurement& z : tape.measurements(k)) {
+      const auto sensor = static_cast<std::size_t>(z.sensor);
+      if (z.accepted && timeline.sensors()[sensor].kind->places) {
+        sensors.insert(z.sensor);
+      }
+    }
   }
-  return onsets;
+  return sensors.size() > 1;
 }
 
-/// Whether a deviation is one of those tried, from that onset on.
+/// Whether a deviation is one of those tried, from that onset on; a jump of the position
+/// only where it is `in_common`, by what several sensors tell.
 bool IsMeant(const MeanShift& shift, const DeviationColumns& columns,
-             std::size_t first, const ErrorLayout& layout) {
+             std::size_t first, const ErrorLayout& layout, bool in_common) {
   if (shift.of_state) {
-    // Nothing makes a vehicle jump: what looks so is the sensor's doing.
+    // Nothing makes a vehicle jump: of one sensor it is that sensor's own error.
     const Block* position = layout.Find(BlockKind::kPosition);
-    return shift.column < position->offset ||
+    return in_common || shift.column < position->offset ||
            shift.column >= position->offset + position->dim;
   }
   const bool throughout = shift.onset == first;
@@ -180,7 +183,7 @@ struct ExplanationSearch::Found {
 
   Found(const Problem& problem, const std::vector<State>& states,
         const LinearTape& tape)
-      : own(problem, states, tape), onsets(Onsets(tape)) {}
+      : own(problem, states, tape), onsets(SpreadOnsets(tape, kOnsets)) {}
 };
 
 ExplanationSearch::ExplanationSearch(const Problem& problem,
@@ -199,8 +202,9 @@ ExplanationSearch::ExplanationSearch(const Problem& problem,
       [&] { return varying.EnergiesOn(tape, own.Additive(), found_->onsets); });
   found_->scores = ScoreShifts(tape, columns, found_->onsets, callback);
   std::vector<MeanShift>& tried = found_->scores.shifts;
+  const bool in_common = ManyTellPlaces(problem.timeline, tape);
   std::erase_if(tried, [&](const MeanShift& shift) {
-    return !IsMeant(shift, own, first, problem.layout);
+    return !IsMeant(shift, own, first, problem.layout, in_common);
   });
   const auto throughout = static_cast<std::size_t>(std::count_if(
       tried.begin(), tried.end(),

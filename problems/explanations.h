@@ -24,8 +24,8 @@ namespace hindsight {
 ///                        an additive error of a component, and of what the
 ///                        problem does not estimate scale, lever arm and clock;
 /// of the IMU, throughout  what ImuDeviations lists, and its clock;
-/// and from these times on another value of every component of the state but
-/// the position.
+/// and from these times on another value of every component of the state, of the
+/// position where more than one sensor tells places.
 class ExplanationSearch {
  public:
   /// `false_alarms` is the probability that a right model has any (Bonferroni).

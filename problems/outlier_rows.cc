@@ -16,9 +16,9 @@ Evidence DoubtOfLast(const std::string& name, double t) {
   return {.grade = Grade::kDoubtful,
           .what = fmt::format(
               "the last fix of {}, at {:.1f} s, is taken for an "
-              "outlier: no other sensor tells positions or velocities, and "
-              "nothing behind it whether it is the others that "
-              "have drifted away",
+              "outlier: no other sensor still tells positions or velocities "
+              "there, but for what is an outlier as well, and nothing behind "
+              "it whether it is the fixes before that have drifted away",
               name, t),
           .t_begin = t,
           .t_end = t,
@@ -27,13 +27,24 @@ Evidence DoubtOfLast(const std::string& name, double t) {
           .remedies = {"a position that is known at the end"}};
 }
 
-}  // namespace
-
-RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes) {
+std::vector<double> SpacingsOf(std::span<const TakenFix> fixes) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < fixes.size(); ++i) {
     spacings.push_back(fixes[i].t - fixes[i - 1].t);
   }
+  return spacings;
+}
+
+/// Whether measurements tell at the time t, to which their last is near and no outlier.
+bool StillTell(std::span<const TakenFix> fixes, double t) {
+  return !fixes.empty() && !fixes.back().outlier &&
+         fixes.back().t >= t - LongestSpacingWithoutGap(SpacingsOf(fixes));
+}
+
+}  // namespace
+
+RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes) {
+  const std::vector<double> spacings = SpacingsOf(fixes);
   const double gap = LongestSpacingWithoutGap(spacings);
   RowAtGap longest;
   for (std::size_t begin = 0; begin < fixes.size();) {
@@ -64,19 +75,22 @@ void DoubtOutliersAtGaps(const Timeline& timeline,
     fixes[static_cast<std::size_t>(r.sensor)].push_back(
         {r.t, r.weight < kOutlier});
   }
-  const auto kind = [&](std::size_t i) { return timeline.sensors()[i].kind; };
-  const auto is_positioning = [&](std::size_t i) {
-    return kind(i)->is_position && !fixes[i].empty();
+  const auto still_tells = [&](std::size_t i, double t) {
+    const SensorKind& kind = *timeline.sensors()[i].kind;
+    return (kind.is_position || kind.moves) && StillTell(fixes[i], t);
   };
-  std::size_t telling = 0;
+  const auto any_still_tells = [&](double t) {
+    for (std::size_t i = 0; i < fixes.size(); ++i) {
+      if (still_tells(i, t)) return true;
+    }
+    return false;
+  };
   for (std::size_t i = 0; i < fixes.size(); ++i) {
-    telling += is_positioning(i) || (kind(i)->moves && !fixes[i].empty());
-  }
-  for (std::size_t i = 0; i < fixes.size(); ++i) {
-    if (!is_positioning(i)) continue;
     const Sensor& sensor = timeline.sensors()[i];
-    if (telling == 1 && fixes[i].back().outlier) {
-      doubts->push_back(DoubtOfLast(sensor.name, fixes[i].back().t));
+    if (!sensor.kind->is_position || fixes[i].empty()) continue;
+    const TakenFix& last = fixes[i].back();
+    if (last.outlier && !any_still_tells(last.t)) {
+      doubts->push_back(DoubtOfLast(sensor.name, last.t));
     }
     const RowAtGap row = LongestRowAtGap(fixes[i]);
     if (row.count < kLeast) continue;

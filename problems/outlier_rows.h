@@ -29,9 +29,10 @@ RowAtGap LongestRowAtGap(std::span<const TakenFix> fixes);
 
 /// Outliers come one by one. Two and more, behind which nothing follows that
 /// would agree with the fixes before them, may be the right ones: of each sensor of
-/// positions that has such a doubt is added; where no other tells positions or velocities
-/// also if the very last fix is an outlier, as an error that grows slowly is seen where it
-/// ends. Outliers have a weight below a half.
+/// positions that has such a doubt is added. So it is if its very last fix is an outlier,
+/// as an error that grows slowly is seen where it ends, unless another sensor of positions
+/// or velocities still tells there, with a last measurement that is none. Outliers have a
+/// weight below a half.
 void DoubtOutliersAtGaps(const Timeline& timeline,
                          const std::vector<ResidualRecord>& residuals,
                          std::vector<Evidence>* doubts);

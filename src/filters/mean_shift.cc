@@ -223,6 +223,21 @@ class AdjointPass {
 
 }  // namespace
 
+std::vector<std::size_t> SpreadOnsets(const LinearTape& tape, int count) {
+  std::vector<std::size_t> onsets;
+  const double begin = tape.t(0);
+  const double step = (tape.back().t - begin) / count;
+  double next = begin;
+  for (std::size_t k = 0;
+       k < tape.size() && onsets.size() < static_cast<std::size_t>(count);
+       ++k) {
+    if (tape.t(k) < next) continue;
+    onsets.push_back(k);
+    while (next <= tape.t(k) && step > 0.0) next += step;
+  }
+  return onsets;
+}
+
 Scores ScoreShifts(const LinearTape& tape, const ShiftColumns& columns,
                    std::span<const std::size_t> onsets,
                    const EpochCallback& callback) {

@@ -64,6 +64,9 @@ struct Scores {
   std::vector<StateScore> states;  ///< of each onset but the first, descending
 };
 
+/// At most `count` epochs about equally far apart in time, the first included.
+std::vector<std::size_t> SpreadOnsets(const LinearTape& tape, int count);
+
 /// Every such deviation that the innovations of a tape could show, from each of
 /// some epochs on (ascending); constants from the first on are there throughout.
 /// One backward pass of the adjoint of the filter (TapeAdjoint) with the constants

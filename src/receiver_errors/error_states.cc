@@ -150,18 +150,24 @@ void ErrorStates::ApplyToSensor(Timeline* timeline) const {
                         std::max(kLeastSolved, chosen_.parameters.scale));
 }
 
-std::vector<VelocityStep> ErrorStates::VelocitySteps() const {
-  std::vector<VelocityStep> steps;
+std::vector<ToldVelocityStep> ErrorStates::VelocitySteps() const {
+  std::vector<ToldVelocityStep> steps;
   if (std::ranges::none_of(chosen_.steps, &ErrorStep::velocity_step)) {
     return steps;
   }
   const std::vector<UnseenTime> unseen = UnseenSincePosition(tape_, receiver_);
+  const Block* velocity = tape_.layout().Find(BlockKind::kVelocity);
+  const int n = tape_.dim();
   for (std::size_t k = 1; k < chosen_.steps.size(); ++k) {
     const ErrorStep& step = chosen_.steps[k];
     if (!step.velocity_step || unseen[k].length == 0.0) continue;
     const double variance =
         DynamicsOf(chosen_.parameters, step, 0.0, unseen_[k]).q_vv;
-    steps.push_back(unseen[k].StepWithin(variance));
+    const ErrorVector w = chosen_.smoothed[k].head(n) -
+                          tape_.Phi(k) * chosen_.smoothed[k - 1].head(n) -
+                          tape_.c(k);
+    steps.push_back(
+        {unseen[k].StepWithin(variance), w.segment<3>(velocity->offset)});
   }
   return steps;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "receiver_errors/error_regimes.h"
+#include "receiver_errors/told_velocity_step.h"
 #include "receiver_errors/weighed_hypotheses.h"
 #include "state/block_step.h"
 #include "timeline/problem.h"
@@ -33,7 +34,7 @@ class ErrorStates {
   void Replace(const ErrorParameters& other, Problem* problem) const;
 
   /// The steps of the IMU's velocity, each at any time at which nothing would have seen it.
-  std::vector<VelocityStep> VelocitySteps() const;
+  std::vector<ToldVelocityStep> VelocitySteps() const;
 
   /// The smoothed trajectory of the hypothesis, over the extended layout.
   std::vector<State> States(const ErrorLayout& layout) const;

@@ -220,7 +220,7 @@ bool ReceiverErrors::HasVelocitySteps() const {
          std::ranges::any_of(found_->chosen().steps, &ErrorStep::velocity_step);
 }
 
-std::vector<VelocityStep> ReceiverErrors::VelocitySteps() const {
+std::vector<ToldVelocityStep> ReceiverErrors::VelocitySteps() const {
   if (!HasVelocitySteps()) return {};
   return found_->states().VelocitySteps();
 }

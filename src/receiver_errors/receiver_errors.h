@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "filters/linear_tape.h"
+#include "receiver_errors/told_velocity_step.h"
 #include "state/evidence.h"
 #include "state/solution.h"
 #include "timeline/problem.h"
@@ -183,7 +184,7 @@ class ReceiverErrors {
   /// These, each at any time at which nothing would have seen it, whatever its onset: by
   /// that of the search, which is linear about a trajectory that has the step as something
   /// else, states between nodes would be told too well.
-  std::vector<VelocityStep> VelocitySteps() const;
+  std::vector<ToldVelocityStep> VelocitySteps() const;
   /// Times of the nodes at which the sensor's errors begin, end or change in the
   /// chosen hypothesis.
   std::vector<double> ChangeTimes() const;

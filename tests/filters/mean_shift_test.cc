@@ -257,5 +257,20 @@ TEST(MeanShift, NeedsATapeAboutAFixedNominal) {
   EXPECT_THROW(ScoreShifts(tape, Additive(), onsets), std::logic_error);
 }
 
+TEST(MeanShift, OnsetsAreSpreadOverTheRecording) {
+  const TestProblem problem = Drive(41);
+  const LinearTape tape = TapeOf(problem);
+  const std::vector<std::size_t> onsets = SpreadOnsets(tape, 8);
+  ASSERT_EQ(onsets.size(), 8u);
+  const double step = (tape.back().t - tape.t(0)) / 8.0;
+  for (std::size_t i = 0; i < onsets.size(); ++i) {
+    const double wanted = tape.t(0) + static_cast<double>(i) * step;
+    EXPECT_GE(tape.t(onsets[i]), wanted - 1e-9);
+    if (onsets[i] > 0) EXPECT_LT(tape.t(onsets[i] - 1), wanted);
+  }
+  // More than there are epochs: each of them.
+  EXPECT_EQ(SpreadOnsets(tape, 1 << 20).size(), tape.size());
+}
+
 }  // namespace
 }  // namespace hindsight

@@ -125,6 +125,24 @@ TEST(Explanation, NamesAnAntennaThatIsMoved) {
   }
 }
 
+/// Where two agree that the place is another it is no matter of either.
+TEST(Explanation, NamesAJumpThatAllReceiversHaveInCommon) {
+  for (unsigned seed = 511; seed < 514; ++seed) {
+    Dataset dataset = Simulate(FindScenario("two_receivers", {}), seed);
+    EXPECT_THAT(WhatSpeaksAgainst(dataset), ::testing::IsEmpty()) << seed;
+    for (AidingStream& stream : dataset.streams) {
+      for (Measurement& z : stream.measurements.Edited()) {
+        auto* fix = std::get_if<PositionFix>(&z.model);
+        if (fix == nullptr || z.t < 75.0) continue;
+        fix->p_e += 3.0 * NedAxes(fix->p_e).col(0);
+      }
+    }
+    EXPECT_THAT(WhatSpeaksAgainst(dataset),
+                ::testing::Contains(HasSubstr("position[north] jumps by ")))
+        << seed;
+  }
+}
+
 /// Positions of 2 cm that are said to be good to 3 m: accelerometers that are
 /// turned by 1.1 deg, which move the solution, are found by what the innovations
 /// say; where nothing is wrong nothing is.

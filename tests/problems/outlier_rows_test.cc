@@ -93,5 +93,12 @@ TEST(OutlierRows, TheLastFixOfTheOnlySensorOfPositionsIsDoubtful) {
   EXPECT_EQ(DoubtsOf("xx........", "..........", true).size(), 1u);
 }
 
+/// What errs alike, and what has ended before, contradicts nothing.
+TEST(OutlierRows, TheLastFixesOfAllSensorsOfPositionsAreDoubtful) {
+  EXPECT_EQ(DoubtsOf(".........x", ".........x", true).size(), 2u);
+  EXPECT_EQ(DoubtsOf(".........x", "....", true).size(), 1u);
+  EXPECT_TRUE(DoubtsOf(".........x", ".....", true).empty());
+}
+
 }  // namespace
 }  // namespace hindsight

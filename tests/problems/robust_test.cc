@@ -1,8 +1,10 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,8 @@
 
 namespace hindsight {
 namespace {
+
+using ::testing::HasSubstr;
 
 using testing::Accuracy;
 using testing::Judge;
@@ -167,6 +171,18 @@ void ExpectTheStepBetweenNodes(const Dataset& dataset,
   }
 }
 
+/// Velocity that the IMU measures too much at a time, in its axes [m/s].
+void StepVelocity(double t, const Eigen::Vector3d& dv, Dataset* dataset) {
+  PagedVector<ImuSample>& samples = dataset->imu.samples;
+  const std::size_t at = static_cast<std::size_t>(
+      std::ranges::upper_bound(samples, t, {}, &ImuSample::t) -
+      samples.begin());
+  const double dt = dataset->imu.kind == ImuStream::Kind::kIncrements
+                        ? 1.0
+                        : samples[at].t - samples[at - 1].t;
+  samples[at].accel += dv / dt;
+}
+
 /// As where samples are lost, or beyond the range: what all others contradict is the
 /// IMU's, and within that interval the batch does not believe it.
 TEST(RobustBatch, FindsAnImuWhoseVelocitySteps) {
@@ -176,14 +192,7 @@ TEST(RobustBatch, FindsAnImuWhoseVelocitySteps) {
         FindScenario(scenario, {"truth_rate=10 Hz", "duration=80 s"}), 11);
     const Accuracy without = Judge(clean, SolveBy("batch", clean));
     Dataset dirty = clean;
-    PagedVector<ImuSample>& samples = dirty.imu.samples;
-    const std::size_t at = static_cast<std::size_t>(
-        std::ranges::upper_bound(samples, kStep, {}, &ImuSample::t) -
-        samples.begin());
-    const double dt = dirty.imu.kind == ImuStream::Kind::kIncrements
-                          ? 1.0
-                          : samples[at].t - samples[at - 1].t;
-    samples[at].accel += Eigen::Vector3d(-3.0, 4.0, 0.0) / dt;
+    StepVelocity(kStep, {-3.0, 4.0, 0.0}, &dirty);
     EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
               2.0 * without.horizontal_rms);
     ReconstructionOptions options;
@@ -225,19 +234,31 @@ TEST(RobustBatch, TakesADriftForNoStepOfTheImu) {
   EXPECT_FALSE(solution.usable());
 }
 
+/// With the same error at a time, NED [m], in what all receivers measure.
+Dataset ErringAlike(Dataset dataset,
+                    const std::function<Eigen::Vector3d(double t)>& error) {
+  for (AidingStream& stream : dataset.streams) {
+    for (Measurement& z : stream.measurements.Edited()) {
+      auto* fix = std::get_if<PositionFix>(&z.model);
+      if (fix != nullptr) fix->p_e += NedAxes(fix->p_e) * error(z.t);
+    }
+  }
+  return dataset;
+}
+
+Dataset TwoReceivers(unsigned seed) {
+  return Simulate(FindScenario("two_receivers", {"duration=90 s"}), seed);
+}
+
+Eigen::Vector3d NorthEast(double size) { return {size, size, 0.0}; }
+
 /// Two receivers that jump alike: to each, the other taken at its word, it is the IMU that
 /// steps forth, and back a second later.
 TEST(RobustBatch, FindsAJumpThatTwoReceiversHaveInCommon) {
-  const Dataset clean =
-      Simulate(FindScenario("two_receivers", {"duration=90 s"}), 2101);
-  Dataset dirty = clean;
-  for (AidingStream& stream : dirty.streams) {
-    for (Measurement& z : stream.measurements.Edited()) {
-      auto* fix = std::get_if<PositionFix>(&z.model);
-      if (fix == nullptr || z.t < 62.4 || z.t > 77.4) continue;
-      fix->p_e += NedAxes(fix->p_e) * Eigen::Vector3d(10.0, 10.0, 0.0);
-    }
-  }
+  const Dataset clean = TwoReceivers(2101);
+  const Dataset dirty = ErringAlike(clean, [](double t) {
+    return NorthEast(t < 62.4 || t > 77.4 ? 0.0 : 10.0);
+  });
   const Accuracy without = Judge(clean, SolveBy("batch", clean));
   EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms,
             10.0 * without.horizontal_rms);
@@ -246,19 +267,49 @@ TEST(RobustBatch, FindsAJumpThatTwoReceiversHaveInCommon) {
   EXPECT_LT(robust.position_nees, 6.0);
 }
 
+/// A step of the IMU that is told as two, one second after the other, in one direction: a
+/// jump is taken back by the second.
+TEST(RobustBatch, FindsAStepOfTheImuThatIsToldAsTwo) {
+  Dataset dirty = TwoReceivers(2105);
+  StepVelocity(44.51, {7.8, 3.1, 0.0}, &dirty);
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms, 3.0);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_THAT(solution.verdict, HasSubstr("44.0 to 45.0 s, 45.0 to 46.0 s"));
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms, 0.5);
+  EXPECT_LT(Judge(dirty, solution).position_nees, 8.0);
+  EXPECT_EQ(solution.grade, Grade::kDoubtful);
+}
+
+/// No sensor tells steps of the IMU's velocity here: the innovations of both do. Which side
+/// of the step is right nothing says.
+TEST(RobustBatch, FindsAStepToTheEndThatTwoReceiversHaveInCommon) {
+  const Dataset clean = TwoReceivers(2103);
+  const Dataset dirty = ErringAlike(
+      clean, [](double t) { return NorthEast(t < 50.0 ? 0.0 : 3.0); });
+  EXPECT_GT(Judge(dirty, SolveBy("batch", dirty)).horizontal_rms, 2.0);
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_LT(Judge(dirty, solution).horizontal_rms, 0.5);
+  EXPECT_LT(Judge(dirty, solution).position_nees, 6.0);
+  EXPECT_EQ(solution.grade, Grade::kDoubtful);
+}
+
 /// From there on either the receivers err or the IMU has stepped.
 TEST(RobustBatch, DoubtsTwoReceiversThatDriftAlikeToTheEnd) {
-  Dataset dirty =
-      Simulate(FindScenario("two_receivers", {"duration=90 s"}), 2102);
-  for (AidingStream& stream : dirty.streams) {
-    for (Measurement& z : stream.measurements.Edited()) {
-      auto* fix = std::get_if<PositionFix>(&z.model);
-      if (fix == nullptr || z.t < 60.0) continue;
-      fix->p_e +=
-          NedAxes(fix->p_e) * ((z.t - 60.0) * Eigen::Vector3d(2.0, 2.0, 0.0));
-    }
-  }
+  const Dataset dirty = ErringAlike(TwoReceivers(2102), [](double t) {
+    return NorthEast(2.0 * std::max(0.0, t - 60.0));
+  });
   EXPECT_FALSE(SolveBy("robust_batch", dirty).usable());
+}
+
+/// The last fix of either is right, and is taken for an outlier.
+TEST(RobustBatch, DoubtsTwoReceiversWhoseDriftEndsWithTheirLastFixes) {
+  const Dataset dirty = ErringAlike(TwoReceivers(2104), [](double t) {
+    return NorthEast(t > 89.5 ? 0.0 : 0.13 * std::max(0.0, t - 40.0));
+  });
+  const Solution solution = SolveBy("robust_batch", dirty);
+  EXPECT_GT(Judge(dirty, solution).position_nees, 30.0);
+  EXPECT_EQ(solution.grade, Grade::kDoubtful);
+  EXPECT_THAT(solution.verdict, HasSubstr("the last fix of left, at 90.0 s"));
 }
 
 /// A drone with positions alone, of a receiver that errs slowly, by 0.2 m, and scatters by

@@ -867,12 +867,13 @@ TEST(ReceiverErrors, AreNoneBesideAStepOfTheImuBetweenTwoFixes) {
                 AllOf(HasSubstr("the IMU's velocity steps at 36 s"),
                       Not(HasSubstr("biased")), Not(HasSubstr("drifting"))));
     ASSERT_TRUE(one.Stands());
-    const std::vector<VelocityStep> steps = one.VelocitySteps();
+    const std::vector<ToldVelocityStep> steps = one.VelocitySteps();
     ASSERT_EQ(steps.size(), 1);
-    EXPECT_EQ(steps[0].begin, 35.0);
-    EXPECT_EQ(steps[0].end, 36.0);
-    EXPECT_GT(steps[0].variance, 1.0);
-    EXPECT_LT(steps[0].variance, 100.0);
+    EXPECT_EQ(steps[0].step.begin, 35.0);
+    EXPECT_EQ(steps[0].step.end, 36.0);
+    EXPECT_GT(steps[0].step.variance, 1.0);
+    EXPECT_LT(steps[0].step.variance, 100.0);
+    EXPECT_LT((steps[0].size - dv).norm(), 0.1 * dv.norm());
   }
 }
 
